@@ -26,8 +26,8 @@ using namespace topology;
 
 namespace {
 
-/// For each edge of `moved`: the names of the sets that contain the corresponding edge of the source. `moved`
-/// is the source, moved halfway along the motion.
+/// For each edge of `moved`: the names of the sets that contain the corresponding edge of the source.
+/// @param moved  the source, moved halfway along the motion.
 std::map<EdgeId, std::vector<std::string>> sets_above(const SweptSource& swept, const Model& moved)
 {
     std::map<EdgeId, std::vector<std::string>> sets;
@@ -109,7 +109,7 @@ private:
         return places;
     }
 
-    /// Indices of the first and the last row between a level (a break of the motion) and the next level.
+    /// Indices of the rows at a level (a break of the motion) and at the next level.
     [[nodiscard]] std::pair<std::size_t, std::size_t> rows_between(std::size_t level) const
     {
         const auto row = [&](double height) {
@@ -120,8 +120,8 @@ private:
 
     // --- checks -------------------------------------------------------------------------------------------
 
-    /// Check that all facets of the source move along their normals from one row to the next, or all against
-    /// them: a change of sign means that a layer folds.
+    /// Check that from row to row all facets of the source move to the same side, along their normals or
+    /// against them. If the sign changes, a layer folds.
     void check_advance(const std::vector<Vec3>& low, const std::vector<Vec3>& high, std::size_t row)
     {
         for (const FaceId face : all_faces(given_)) {
@@ -153,7 +153,7 @@ private:
         throw NotClosed(std::move(message).remedy("use a wider bend, or a smaller source"));
     }
 
-    /// Largest share of the requested thickness at which no facet folds, rounded down to whole percent.
+    /// Largest share of the requested thickness at which no facet folds, rounded down to a whole percent.
     [[nodiscard]] double largest_share() const
     {
         constexpr int kPercent = 100;
@@ -174,7 +174,7 @@ private:
         return 1;
     }
 
-    /// The skin must not cross itself.
+    /// @throw NotClosed  the skin crosses itself.
     void check_crossings(const Model& model) const
     {
         const std::vector<Triangle> facets = facets_of(model, all_faces(model));
@@ -192,7 +192,7 @@ private:
                 if (index(a) < given_facets && index(b) < given_facets) return true;
                 const auto shared = std::ranges::count_if(
                     one, [&](Index p) { return std::ranges::find(other, p) != other.end(); });
-                if (shared >= 2) return true; // neighbours: check_advance() finds their folds
+                if (shared >= 2) return true; // adjacent facets can only fold; check_advance() finds folds
                 if (!geometry::triangles_cross(corners(one), corners(other), model.tolerance)) return true;
                 const Vec3 middle = (model.at(one[0]) + model.at(one[1]) + model.at(one[2])) / 3;
                 throw NotClosed(Message("closure.along_crosses",
@@ -281,7 +281,7 @@ private:
 
     // --- faces ---------------------------------------------------------------------------------------------
 
-    /// Add the walls that an edge of the rim sweeps: one between each level and the next.
+    /// Add the walls that an edge of the rim sweeps, one for each pair of consecutive levels.
     void add_walls(EdgeId edge)
     {
         const FaceUse use = given_.uses_of_edge(edge).front();
@@ -306,7 +306,8 @@ private:
             }
             for (std::size_t row = low; row < high; ++row) {
                 for (std::size_t i = 0; i + 1 < own.points.size(); ++i) {
-                    // Along the use of the edge, the source lies on the left and the wall on the right.
+                    // In the direction of the use, the source lies on the left of the edge. The wall is
+                    // oriented so that it lies on the right.
                     const std::size_t a = use.reversed ? i : i + 1, b = use.reversed ? i + 1 : i;
                     const auto corner = [&](std::size_t at, std::size_t up) {
                         return std::pair(at_row_[up][index(own.points[at])],
@@ -361,12 +362,12 @@ private:
     std::vector<Index> used_;                ///< points of the source's facets
     std::vector<std::vector<Index>> at_row_; ///< by row and point of the source: its image there, or -1
     std::map<std::pair<VertexId, std::size_t>, VertexId> vertices_;
-    std::set<std::pair<VertexId, std::size_t>> paths_; ///< source vertices and levels whose void edge along
-                                                       ///< the path exists
+    std::set<std::pair<VertexId, std::size_t>> paths_; ///< the source vertices and levels for which the void
+                                                       ///< edge along the path exists
     std::vector<FaceId> walls_;
-    std::vector<Vec3> reach_; ///< by source point: its displacement over the whole height; used if each point
-                              ///< has its own
-    double sense_ = 0;        ///< sign of the advance of the source's facets along their normals
+    std::vector<Vec3> reach_; ///< by source point: its displacement from source to target; used if the motion
+                              ///< moves each point separately (`Motion::reach`)
+    double sense_ = 0;        ///< advance of the first facet along its normal; only the sign is used
 };
 
 } // namespace
@@ -407,8 +408,8 @@ std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& 
     SweptSource half{swept.source, geometry::part_of_motion(swept.motion, 0, kHalf), false, swept.sets};
     StepPiece first{.volume = close_along(half, {}, context).volume, .turn_to = kHalf};
     const Model& model = first.volume.model;
-    // The target of the first half is the source of the second. `extract()` renumbers its edges, so the sets
-    // are found again by place.
+    // The target of the first half is the source of the second half. `extract()` renumbers the edges, so the
+    // sets of the edges are found by place.
     half.source.model = extract(model, first.volume.faces(Role::target));
     half.source.role.assign(half.source.model.faces.size(), Role::source);
     half.motion = geometry::part_of_motion(swept.motion, kHalf, 1);

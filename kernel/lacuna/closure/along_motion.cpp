@@ -28,11 +28,11 @@ using namespace topology;
 
 namespace {
 
-/// Number of intervals in which a function of the height is sampled; cubics join the sampled values. A
-/// choice: one period of a sine over the whole height is reproduced to one part in a million.
+/// Number of intervals at which a function of the height is sampled; cubics interpolate the samples. With
+/// this number, one period of a sine over the whole height is reproduced to one part in a million.
 constexpr int kProfileSteps = 128;
-/// Number of intervals in which a path given as a function is sampled. A path of five turns is reproduced to
-/// 1e-6 of their radius.
+/// Number of intervals at which a path given as a function is sampled. With this number, a path of five turns
+/// is reproduced to 1e-6 of the turns' radius.
 constexpr int kPathSteps = 1024;
 /// Number of samples for each chord of a CAD curve that is used as a path.
 constexpr int kCurveSteps = 8;
@@ -101,7 +101,7 @@ geometry::Distortion distortion_of(const Along& along)
 
 // --- paths -------------------------------------------------------------------------------------------------
 
-/// Points along an edge, on its exact curve if it has one.
+/// Points along an edge; if the edge has an exact curve, they lie on the curve.
 std::vector<Vec3> line_of(const Model& model, const Edge& edge)
 {
     std::vector<Vec3> points;
@@ -119,7 +119,7 @@ std::vector<Vec3> line_of(const Model& model, const Edge& edge)
     return points;
 }
 
-/// A line, cut where it turns by the crease angle or more.
+/// The parts of a line between corners: places where the line turns by the crease angle or more.
 std::vector<geometry::PathPart> cut_at_corners(const std::vector<Vec3>& line)
 {
     std::vector<geometry::PathPart> parts{{line.front()}};
@@ -132,8 +132,8 @@ std::vector<geometry::PathPart> cut_at_corners(const std::vector<Vec3>& line)
     return parts;
 }
 
-/// The parts of a path along edges. Each edge starts where the one before it ends, and the path starts at its
-/// end nearer to the source.
+/// The parts of a path along edges. Each edge must start where the previous edge ends. Of the two ends of the
+/// path, the one nearer to the source is its start.
 std::vector<geometry::PathPart> path_of_edges(const Model& model, const std::vector<int>& tags,
                                               const Vec3& source)
 {
@@ -232,8 +232,8 @@ std::optional<EdgeId> edge_on_axis(const Model& model, const Vec3& point, const 
     return std::nullopt;
 }
 
-/// Refuse a source that touches its axis, where cells would have no width.
-/// @param wedges  whether the volume can be swept with wedges; the remedy then says so.
+/// Refuse a source that touches its axis: cells there would have no width.
+/// @param wedges  whether the volume can be swept with wedges; if so, the remedy says so.
 void check_axis(const Model& model, const Vec3& point, const Vec3& axis, bool wedges = false)
 {
     if (const auto edge = edge_on_axis(model, point, axis))
@@ -254,7 +254,7 @@ void check_axis(const Model& model, const Vec3& point, const Vec3& axis, bool we
     }
 }
 
-/// Whether edges of a source lie on the axis of its turn.
+/// Whether edges of a source lie on its axis of rotation.
 /// @throw InvalidInput "closure.along_axis"  the source touches the axis, but not along an edge.
 bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
 {
@@ -280,7 +280,8 @@ bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
     return true;
 }
 
-/// Unit tangent, at a place, of the rotation about an axis.
+/// Unit direction in which a place moves in a rotation about an axis; the axis direction for a place on the
+/// axis.
 Vec3 start_of_turn(const Vec3& point, const Vec3& axis, const Vec3& place)
 {
     const Vec3 way = axis.cross(place - point);
@@ -348,8 +349,8 @@ std::vector<Vec3> unit_offsets(const Model& model)
         Eigen::MatrixXd rows(std::ssize(sums), 3);
         for (std::size_t i = 0; i < sums.size(); ++i)
             rows.row(static_cast<Eigen::Index>(i)) = sums[i].stableNormalized().transpose();
-        // A pivot below this threshold counts as zero. The pivots of two unit normals that differ by the
-        // crease angle are 1 and 0.5, the sine of 30°.
+        // A pivot below this threshold counts as zero. Normals that differ by the crease angle must count as
+        // independent: their pivots are 1 and sin 30° = 0.5.
         constexpr double kDependent = 0.1;
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
         solver.setThreshold(kDependent);
@@ -360,7 +361,8 @@ std::vector<Vec3> unit_offsets(const Model& model)
 }
 
 /// Report a thickness function that differs from its linear interpolation on the facets by more than a
-/// hundredth (a choice) of its largest value.
+/// hundredth of its largest value: cells made with the interpolated thickness would visibly differ from the
+/// function.
 void note_coarse_facets(const Model& model, const std::function<double(const Vec3&)>& thickness,
                         const std::vector<double>& at, const RunContext& context)
 {
@@ -386,7 +388,7 @@ void note_coarse_facets(const Model& model, const std::function<double(const Vec
                            place_with_digits(worst, 4), taken, wanted));
 }
 
-/// Thickness of each point of the source's facets.
+/// Thickness at each corner of the source's facets.
 std::vector<double> thickness_at(const Model& model, const std::function<double(const Vec3&)>& thickness,
                                  const RunContext& context)
 {
@@ -405,7 +407,8 @@ std::vector<double> thickness_at(const Model& model, const std::function<double(
     return at;
 }
 
-/// Move the source's points and drop the exact geometry, on which they no longer lie.
+/// Move the source's points, and drop its exact surfaces and curves, because the moved points do not lie on
+/// them.
 void shift_points(Model& model, const std::vector<Vec3>& by)
 {
     ModelBuilder builder(std::move(model));
@@ -440,7 +443,8 @@ geometry::Motion motion_along_normals(OpenVolume& source, const Along::Normals& 
                     round](const Vec3& place) -> Vec3 {
         const Vec3 vector = (*vectors)(place);
         if (!round) return vector;
-        // On a cylinder or a sphere the normal is exact; the vector only gives the thickness.
+        // On a cylinder or a sphere the exact normal is known. Only the length and the sign of the vector are
+        // used.
         const Vec3 normal = round_normal(*round, place);
         return (normal.dot(vector) < 0 ? -vector.norm() : vector.norm()) * normal;
     };
@@ -479,14 +483,15 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
     motion.reach = [tree, way, vectors = std::make_shared<const PointVectors>(model, std::move(reach))](
                        const Vec3& place) -> Vec3 {
         const geometry::FacetTree::RayHit hit = tree->first_along(place, way);
-        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way); // rounding may miss at the rim
+        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way); // at the rim, rounding may make the
+                                                                         // ray miss the face
     };
     return motion;
 }
 
-/// Visitor of `Along::course`: makes the motion for each of its alternatives.
+/// Visitor of `Along::course`: makes the motion for each alternative of the variant.
 struct MotionMaker {
-    const Model& model; ///< contains the edges of a path
+    const Model& model; ///< the model that contains the edges of `Along::Path`
     SweptSource& swept;
     geometry::Distortion by;
     Vec3 centre;
@@ -517,7 +522,7 @@ struct MotionMaker {
                                        "along: a full turn ends on its source, which twist and scale change")
                                    .remedy("leave them out, or use a smaller angle"));
         geometry::Motion motion = geometry::screw(along.point, axis, angle, 0);
-        if (swept.full_turn) motion.levels = {0, 0.5, 1}; // the two halves are swept one after the other
+        if (swept.full_turn) motion.levels = {0, 0.5, 1}; // the two halves are swept separately
         return distorted(std::move(motion), centre, start_of_turn(along.point, axis, centre), by);
     }
     geometry::Motion operator()(const Along::Helix& along) const
@@ -561,8 +566,9 @@ struct MotionMaker {
     }
 };
 
-/// Divide closed edges of the rim in two. The walls of the halves then meet in two edges along the path,
-/// which fix how the rims of source and target correspond. The seam of a single wall would not fix that.
+/// Divide closed edges of the rim in two. The walls of the two halves then meet in two edges along the path,
+/// which determine which points of the rims of source and target correspond. The seam of a single wall would
+/// not determine that.
 void divide_closed_edges(Model& model)
 {
     constexpr double kMiddle = 0.5;

@@ -31,30 +31,32 @@ using namespace topology;
 
 namespace {
 
-/// Least angle by which walls turn inward at a mouth [degrees]. It is larger than the angle between the
-/// facets of a bent wall, and smaller than the angle at an oblique branch.
+/// Least angle between walls at a mouth, as a turn towards the void [degrees]. It is larger than the angle
+/// between the facets of a bent wall, and smaller than the angle at an oblique branch.
 constexpr double kConcave = 15;
 /// Largest depth of a dip (the line across a mouth in which the cut faces meet, see `add_dip()`), as a share
 /// of the distance to the opposite wall. For equal tubes the dip then reaches the axis.
 constexpr double kDeepest = 0.5;
-/// Cosine of 30°. Two branches share a plane along the main body if the normals of their planes, up to sign,
-/// differ by less than this angle. An edge within this angle of the axis runs along the axis. A higher cosine
-/// adds nearly equal planes; a lower one makes branches on different sides share a plane.
+/// Cosine of 30°. If the planes of two branches (see `planes_along()`) differ by less than this angle, only
+/// one of the planes is used. An edge at less than this angle to the axis counts as parallel to the axis. A
+/// higher cosine adds nearly equal planes; a lower one makes branches on different sides share a plane.
 constexpr double kSameSide = 0.87;
-/// Cosine of 44°. A face at the mouth is an end of its branch, not a wall, if its normal is within this angle
-/// of the branch's direction: about half way between an end square to the branch and a wall along it.
+/// Cosine of 44°. A face at the mouth is an end of the branch, not a wall, if the angle between its normal
+/// and the branch's direction is below this. The limit is about halfway between an end perpendicular to the
+/// branch (0°) and a wall along the branch (90°).
 constexpr double kAlongWay = 0.72;
-/// Two planes along the main body are merged if their lines on its end are closer than this share of the
-/// widest mouth, because the strip between the lines would be a sliver. A higher value moves the planes
-/// further from the centres of their mouths.
+/// A plane along the main body is moved onto an edge across the main body's end if the distance is below this
+/// share of the widest mouth's width; a sliver would be left otherwise. A plane makes no new line on a wall
+/// where an edge is as near. A higher value moves the planes further from the centres of their mouths.
 constexpr double kBeside = 0.1;
-/// Number of chords of the dip, a parabola: the sag of a chord is 1/256 of the depth of the dip.
+/// Number of chords of a dip, which is a parabola. The sag of a chord is 1/256 of the depth of the dip.
 constexpr int kChords = 16;
 
 /// A closed line of concave edges between a branch and its main body.
 struct Mouth {
     std::vector<EdgeId> edges;
-    std::size_t host = 0, branch = 0; ///< skin regions on its two sides
+    std::size_t host = 0, branch = 0; ///< the regions of the skin on the two sides of the mouth: main body
+                                      ///< and branch
 };
 
 /// The regions into which the mouths divide the skin, and the ends of each region.
@@ -86,7 +88,7 @@ public:
     Branching run()
     {
         find_lines();
-        // Remove lines that are no mouths, so that the regions on their two sides merge.
+        // Remove lines that are no mouths. The regions on both sides of such a line become one.
         for (bool again = true; again;) {
             find_regions();
             again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
@@ -150,7 +152,7 @@ private:
         }
     }
 
-    /// Decide which side of a mouth is the main body; false if neither is.
+    /// Decide which side of a mouth is the main body. @return false if the line is no mouth.
     bool set_sides(Mouth& mouth)
     {
         const std::span<const FaceUse> users = model_.uses_of_edge(mouth.edges.front());
@@ -168,7 +170,8 @@ private:
         const std::vector<Vec3> rim = places(model_, mouth.edges);
         const Vec3 centre = geometry::mean_point(rim);
         const Vec3 normal = geometry::newell_vector(rim).normalized();
-        // A mouth that faces along the main body is a change of the body's section, not a branch.
+        // If the normal of the line is parallel to the main body's axis, the section of the body changes
+        // there; the line is no mouth.
         const std::vector<Vec3>& ends = result_.ends[mouth.host];
         const Vec3 way = ends.back() - ends.front();
         if (ends.size() == 2 && way.cross(normal).norm() < kAlongAxis * way.norm()) return false;
@@ -213,7 +216,7 @@ public:
             if (!planes.empty()) return with_lines(planes);
         }
         std::ranges::sort(mouths, {}, [&](const Mouth* mouth) { return reach(*mouth).low; });
-        // Mouths that face each other, or overlap along the direction, form one junction.
+        // Mouths whose ranges along the axis overlap form one junction.
         double high = reach(*mouths.front()).high;
         std::size_t count = 1;
         for (; count < mouths.size() && reach(*mouths[count]).low <= high + volume_.model.tolerance; ++count)
@@ -259,7 +262,8 @@ private:
         });
     }
 
-    /// Refuse a branch that reaches past the side of the main body and so has its own end next to the mouth.
+    /// Refuse a branch that reaches beyond the side of the main body, so that an end of the branch lies next
+    /// to the mouth.
     void refuse_beyond(const Mouth& mouth) const
     {
         const Model& model = volume_.model;
@@ -308,11 +312,13 @@ private:
     }
 
     /// Planes along the main body: one through the centre of each mouth, and one through the middle of each
-    /// edge that crosses an end of the main body. Empty if all branches leave to one side.
+    /// edge between two faces of an end of the main body. Empty if one plane suffices, because all branches
+    /// leave to one side.
     [[nodiscard]] std::vector<geometry::Plane> planes_along(const std::vector<const Mouth*>& mouths) const
     {
         const Model& model = volume_.model;
-        std::vector<std::array<Vec3, 2>> across; // end points of the edges that cross an end of the main body
+        std::vector<std::array<Vec3, 2>> across; // end points of the edges between two faces of an end of the
+                                                 // main body
         for (std::size_t e = 0; e < model.edges.size(); ++e) {
             const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
             const bool inner = uses.size() == 2 && uses[0].face != uses[1].face &&
@@ -333,7 +339,8 @@ private:
                 return std::abs(plane.normal.dot(n)) > kSameSide;
             });
             if (known) return;
-            // Let the plane pass through the ends of nearby lines, so that no sliver is left beside them.
+            // Let the plane pass through an edge of the end that is near, so that no sliver is left beside
+            // the edge.
             for (const auto& [a, b] : across) {
                 const auto is_near = [&](const Vec3& p) {
                     return std::abs((p - place).dot(n)) <= kBeside * width();
@@ -357,9 +364,9 @@ private:
         return planes;
     }
 
-    /// Split the walls of the main body by planes along its axis, then cut off the branches. Where mouths lie
-    /// on several sides, the rims of the two ends of a piece are bent differently. The new wall edges fix
-    /// which of their vertices correspond.
+    /// Split the walls of the main body by planes along its axis, then cut off the branches. If mouths lie on
+    /// several sides, the two ends of a piece have rims that are bent differently. The new wall edges
+    /// determine which vertices of these rims correspond.
     std::vector<StepPiece> with_lines(const std::vector<geometry::Plane>& planes) const
     {
         OpenVolume lined = volume_;
@@ -393,7 +400,7 @@ private:
         return wide;
     }
 
-    /// Whether an edge of the main body's walls already runs close to a line along it.
+    /// Whether an edge of the walls, parallel to the axis, is near the middle of a section line.
     [[nodiscard]] bool is_beside_line(const Model& model, const std::vector<FaceId>& walls,
                                       const SectionWalk& walk, const geometry::Plane& plane,
                                       double near) const
@@ -439,9 +446,10 @@ private:
         return result;
     }
 
-    /// Heights along the axis of the two sides of a mouth that are normal to the axis, as those of a square
-    /// duct on a flat wall; empty unless there are two. The body between them is swept along the axis; the
-    /// duct's sides are parts of its ends.
+    /// Heights along the axis of the two flat walls of the branch at a mouth that are perpendicular to the
+    /// axis, such as those of a square duct on a flat wall. Empty unless there are two. The part of the main
+    /// body between these heights is swept along the axis together with the duct; the two walls of the duct
+    /// are parts of its ends.
     [[nodiscard]] std::vector<double> sides_across(const Mouth& mouth) const
     {
         const Model& model = volume_.model;
@@ -474,8 +482,8 @@ private:
         return geometry::to_plane(plane, place_at(model, place, plane));
     }
 
-    /// Section lines across the main body: first those from mouth to mouth, then the closed ones in the same
-    /// region.
+    /// Section lines across the main body: first those from mouth to mouth, then the closed lines (holes)
+    /// inside the region that these bound.
     [[nodiscard]] std::vector<SectionWalk> walks_across(const std::vector<const Mouth*>& mouths,
                                                         const geometry::Plane& plane) const
     {
@@ -488,7 +496,7 @@ private:
         if (open != mouths.size())
             refuse(mouth, open < mouths.size() ? "no wall of the main body lies opposite"
                                                : "walls of the main body are missing opposite");
-        // Keep the closed walks inside the region that the open walks bound.
+        // Keep the closed lines inside the region that the open lines bound.
         std::vector<std::vector<Vec2>> loops(1);
         for (std::size_t w = 0; w < walks.size(); ++w) {
             if (w >= open) loops.emplace_back();
@@ -504,8 +512,8 @@ private:
         return own;
     }
 
-    /// Add the cut faces, which meet in a dip across each mouth: two from the dip to the halves of the mouth,
-    /// and one across the main body between the dips.
+    /// Add the cut faces. At each mouth they meet in a dip (`add_dip()`): two faces run from the dip to the
+    /// halves of the mouth, and one face runs across the main body between the dips.
     std::vector<StepPiece> fork(const std::vector<const Mouth*>& mouths)
     {
         check_cancelled(context_);
@@ -523,14 +531,15 @@ private:
             if (found_.region[made.parent[f].index()] == mouths.front()->host) host.emplace_back(f);
 
         Partition middle;
-        std::map<VertexId, EdgeUse> onward; // by the vertex at which a walk ends: the dip that continues it
+        std::map<VertexId, EdgeUse> onward; // by the vertex at which a section line ends: the dip that
+                                            // continues the line
         for (const Mouth* mouth : mouths) {
             // The void faces of earlier mouths come after the faces of the skin.
             std::vector<FaceId> branch;
             for (std::size_t f = 0; f < made.parent.size(); ++f)
                 if (found_.region[made.parent[f].index()] == mouth->branch) branch.emplace_back(f);
             std::array<std::vector<EdgeUse>, 2>
-                halves; // behind the plane and in front of it, oriented as in the branch
+                halves; // the half behind the plane, then the half in front of it; oriented as in the branch
             for (const EdgeUse& use : mouth_walk(model, branch, host)) {
                 double sum = 0;
                 for (const Index p : model[use.edge].points) sum += geometry::height(plane, model.at(p));
@@ -590,8 +599,8 @@ private:
         return walk_of(model, branch, rim_edges(model, host));
     }
 
-    /// Put the halves of a mouth in walking order. @return  the vertices where the first half begins and
-    /// ends.
+    /// Order the edges of each half of a mouth so that they form a chain.
+    /// @return  the vertices where the first half begins and ends.
     [[nodiscard]] std::pair<VertexId, VertexId> order(const Model& model, const Mouth& mouth,
                                                       std::array<std::vector<EdgeUse>, 2>& halves) const
     {
@@ -610,8 +619,8 @@ private:
         return {use_from(model, halves[0].front()), use_to(model, halves[0].back())};
     }
 
-    /// Add the dip: a parabola across the mouth into the main body. Its lowest point lies below the mouth's
-    /// widest place by half of the mouth's extent along the axis, but at most half way to the opposite wall.
+    /// Add the dip: a parabola across the mouth into the main body. Its lowest point lies below the mouth, as
+    /// deep as the mouth extends from the plane along the axis, but at most halfway to the opposite wall.
     EdgeId add_dip(Model& model, const Mouth& mouth, const geometry::Plane& plane,
                    std::pair<VertexId, VertexId> ends)
     {
@@ -644,7 +653,7 @@ private:
     const OpenVolume& volume_;
     Branching found_;
     const RunContext& context_;
-    bool lined_ = false; ///< walls have lines along the main body
+    bool lined_ = false; ///< whether the walls have been split by planes along the main body
     /// Centre of the first mouth, and direction of the main body's axis.
     Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero();
 };
@@ -679,7 +688,8 @@ std::vector<StepPiece> cut_into_pieces(const OpenVolume& volume, const RunContex
     for (const StepPiece& arm : cut_branches(volume, context)) {
         for (StepPiece& piece : cut_steps(arm.volume, context)) result.push_back(std::move(piece));
     }
-    // Round rims are split only in a single piece: a round rim that two pieces share must stay whole.
+    // Rounds are divided only if there is a single piece, because two pieces must not divide a round that
+    // they share.
     if (result.size() == 1) split_round_rims(result.front().volume, RoundsOf::walls, context);
     std::ranges::stable_sort(result, {}, &StepPiece::level);
     return result;

@@ -33,7 +33,8 @@ using namespace topology;
 
 namespace {
 
-/// @throw NotClosed unless the volume is sealed.
+/// @throw NotClosed  an edge is not used twice in opposite directions, or the enclosed volume is not
+///         positive.
 void prove_sealed(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -107,14 +108,15 @@ double lean_of(const OpenVolume& volume)
     return geometry::angle_between(facing(source), facing(target));
 }
 
-/// Above this angle, ends without walls are closed by a bend, because straight edges would meet both ends at
-/// small angles. Between kLean and this angle they are closed straight.
+/// Above this angle between the ends (`lean_of()`), ends without walls are joined by smooth edges, because
+/// straight edges would meet both ends at small angles. Up to this angle, edges are straight.
 constexpr double kBend = 100 * kDegree;
-/// Above this angle between the ends, a straight closing may have been meant as a bend; a note says so.
+/// Above this angle between the ends, straight and smooth edges are both plausible; a note reports the
+/// alternative.
 constexpr double kLean = 20 * kDegree;
 
-/// Difference between an alternative volume and the volume taken, relative to the latter; 0 if the
-/// alternative cannot be sealed.
+/// Relative difference between an alternative volume and the volume `taken`; 0 if the alternative cannot be
+/// sealed.
 double share_between(double taken, const std::optional<double>& other)
 {
     return other ? std::abs(*other - taken) / taken : 0;
@@ -133,12 +135,12 @@ bool asks_for_shape(const CloseOptions& options)
            options.cap != Cap::automatic;
 }
 
-/// The options of close(); a trial does not compare alternative shapes.
+/// The options of close(), and whether the call comes from close_trial().
 struct Asked : CloseOptions {
     bool trial = false;
 };
 
-/// Seals a volume of a class; tries several methods.
+/// Seals an open volume of a given `VolumeClass`: tries several shapes of the void edges and ends in turn.
 class Sealer {
 public:
     /// @param lines  side lines of the volume; empty: they are found when needed.
@@ -182,8 +184,12 @@ private:
 
     [[nodiscard]] bool leads() const { return follower_ && follower_->leads(); }
 
-    /// The closing methods to try, in order. A given shape is the only one. Otherwise edges that follow bent
-    /// walls come first, and straight edges where no walls are given or these are straight.
+    /// The closing methods to try, in order. If an option sets the shape, only this shape is tried. Otherwise
+    /// the first shape of void edges is:
+    /// - between two ends with walls that join them: `follow` if the walls are bent
+    ///   (`Follower::leads_astray()`), otherwise `straight`;
+    /// - between two ends without such walls: `smooth` if the angle between the ends exceeds `kBend`,
+    ///   otherwise `straight`.
     std::vector<Way> wanted(const matching::Match& match) const
     {
         if (value_ == VolumeClass::IV) {
@@ -203,8 +209,8 @@ private:
     }
 
     /// Report the other possible shape of the void edges and the volume that it encloses. Between inclined
-    /// ends without walls, edges are straight or smooth. Beside bent walls, and along a loop without walls,
-    /// they are straight or follow the given walls.
+    /// ends without walls, the two shapes are straight and smooth. Beside bent walls, and along a loop
+    /// without walls, they are straight and following the given walls.
     void add_ambiguity_notes(const Way& way, const matching::Match& match, Closed& closed)
     {
         Closure& closure = closed.closure;
@@ -247,8 +253,10 @@ private:
                share);
     }
 
-    /// Note three kinds of ambiguity: a missing end with missing walls that is closed by several flat faces;
-    /// void faces whose rims do not determine their inside; void faces that may close off a pocket.
+    /// Note three kinds of ambiguity:
+    /// - a missing end with missing walls is closed by several flat faces;
+    /// - the rim of a void face does not determine the inside of the face;
+    /// - a void face may close off a pocket.
     void say_what_is_open(Closed& closed) const
     {
         auto& [sealed, closure] = closed;
@@ -279,13 +287,14 @@ private:
         return {std::move(sealed), std::move(closure)};
     }
 
-    /// The volume enclosed if it is sealed with a method; empty if that fails.
+    /// The volume that is enclosed if `way` is used; empty if sealing fails.
     std::optional<double> volume_sealed_as(const Way& way, const matching::Match& match) const
     {
         return unless_refused([&] { return enclosed_volume(seal_as(way, match).volume); });
     }
 
-    /// The error `failed`, with a remedy if one is found: an option that seals the volume when tried.
+    /// The error `failed` with a remedy. Other shapes and the reverse matching of all loops are tried; the
+    /// remedy names the first option that seals the volume.
     Message with_what_helps(const Message& failed, const matching::Match& match)
     {
         const auto otherwise = [&]() -> Message {
@@ -324,8 +333,8 @@ private:
     std::optional<Follower> follower_;
 };
 
-/// Whether side lines run along open rims, where adjacent walls end at different heights. Such rims form no
-/// loop to match; the side lines then give the correspondence.
+/// Whether the wall edges of a matched pair include free edges, which happens where adjacent walls end at
+/// different heights. The free rims of such walls cannot be matched as loops; the match of the ends is used.
 bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 {
     const std::vector<EdgeId> free = free_edges(volume);
@@ -347,7 +356,7 @@ void refuse_guess(const Closed& closed, const CloseOptions& options)
         enclosed_volume(closed.volume)));
 }
 
-/// Seal a volume of a class, and check it.
+/// Seal a volume of class `value`, and refuse the result if its shape is ambiguous.
 Closed seal(const OpenVolume& volume, const matching::Match& match, VolumeClass value, const Asked& options,
             const RunContext& context)
 {
@@ -361,8 +370,8 @@ bool lacks_walls(const OpenVolume& volume)
     return std::ranges::any_of(shares_without_walls(volume), [](double share) { return share > 0; });
 }
 
-/// Seal a volume of class IV that lacks walls as well: the target is the source's shape, moved onto the tops
-/// of the given walls. Empty if the walls do not determine the motion, or if an option sets another shape.
+/// Seal a volume of class IV that lacks walls too. The target gets the source's shape, moved onto the tops of
+/// the given walls. Empty if the walls do not determine the motion, or if an option sets another shape.
 std::optional<Closed> seal_as_source_tells(const OpenVolume& volume, const CloseOptions& options,
                                            const RunContext& context)
 {
@@ -389,7 +398,7 @@ matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options
 Closed close_rest(const OpenVolume& volume, const matching::Match& match, VolumeClass whole,
                   const Asked& options, const RunContext& context)
 {
-    // Trials skip this: the search for candidates moves ends itself.
+    // Not for close_trial(): find_readings() moves ends itself.
     if (whole == VolumeClass::IV && !options.trial && lacks_walls(volume)) {
         if (auto closed = seal_as_source_tells(volume, options, context)) return std::move(*closed);
     }
@@ -398,8 +407,8 @@ Closed close_rest(const OpenVolume& volume, const matching::Match& match, Volume
     const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
     if (stubs.empty() || climbs_open_rims(volume, match)) return seal(volume, match, whole, options, context);
 
-    // The middle of the volume is missing. The gap lies between the partial walls, so their open rims are
-    // matched.
+    // The middle of the volume is missing. The walls at each end count as a part of the end, so the free rims
+    // of these walls are matched with each other.
     lent.override_class.reset();
     Closed closed = seal(lent, match_ends(lent, options, context), classify(lent).value, options, context);
     closed.closure.value = whole;
@@ -463,7 +472,7 @@ Closed close_as_asked(const OpenVolume& volume, const matching::Match& match, co
     return closed;
 }
 
-/// Note which walls were given the role of an end.
+/// Note which walls were made part of an end by extend_smooth_ends().
 void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure& closure)
 {
     if (walls.empty()) return;

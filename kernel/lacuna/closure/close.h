@@ -19,27 +19,28 @@ namespace lacuna::closure {
 /// Shape of a void edge between its two vertices.
 enum class EdgeShape {
     /// `smooth` between ends that no wall joins and that are at more than 100° to each other. Otherwise
-    /// `straight`, or `follow` if straight edges would stray from the walls. If this shape crosses given
-    /// faces or encloses no volume, the other shapes are tried in order, and the first one that seals the
-    /// volume is taken.
+    /// `straight`, or `follow` if void walls between straight edges would be far from the given walls. If the
+    /// chosen shape crosses given faces or encloses no volume, the other shapes are tried in order, and the
+    /// first one that seals the volume is taken.
     automatic,
-    straight, ///< as in the paper
-    follow,   ///< bent like the given walls beside it
+    straight, ///< as in the paper (docs/bibliography.md)
+    follow,   ///< bent like the given walls beside the edge
     smooth,   ///< a cubic; at each end it is tangent to the walls or, without walls, normal to the end face
 };
 
 /// Shape of a missing end (class IV).
 enum class Cap {
     automatic, ///< flat, or parallel if flat would cross the given faces
-    flat,      ///< in the plane of its rim, or interpolated from its rim's heights (Algorithm 4)
+    flat,      ///< in the plane of the end's rim; if the rim is not planar, interpolated (Algorithm 4)
     parallel,  ///< the given end's shape, moved to the rim by the motion that the walls define
 };
 
 /// Treatment of a given end's holes without walls.
 enum class Holes {
-    automatic, ///< an error if the other end is missing; otherwise holes are joined as matched
-    cover,     ///< closed by a face in the end's surface
-    through,   ///< extended to the other end
+    automatic, ///< an error if the other end is missing; otherwise each hole is joined to the loop of the
+               ///< other end with which it is matched
+    cover,     ///< each hole is closed by a face in the end's surface
+    through,   ///< each hole is extended to the other end
 };
 
 /// A void edge given by the user.
@@ -59,7 +60,7 @@ struct CloseOptions {
 /// The path along which a source alone is swept (class 0).
 struct Along {
     struct Vector {
-        Vec3 way; ///< from the source to the target [model length]
+        Vec3 way; ///< displacement from the source to the target [model length]
     };
     struct Axis {
         Vec3 point, direction;
@@ -76,28 +77,29 @@ struct Along {
         std::vector<Vec3> points{};
         std::vector<int> edges{}; ///< tags
         std::function<Vec3(double)> curve{};
-        bool fixed = false; ///< the section is not turned; otherwise by rotation-minimising frames
+        bool fixed = false; ///< whether the section keeps its orientation; otherwise rotation-minimising
+                            ///< frames turn it
     };
-    /// Along the normals of the source, by a thickness at each place [model length].
+    /// Along the normals of the source, by a thickness that depends on the place [model length].
     struct Normals {
-        std::function<double(const Vec3&)> inside{}; ///< against the normals; null: 0
+        std::function<double(const Vec3&)> inside{}; ///< thickness against the normals; null: 0
         std::function<double(const Vec3&)> outside{};
     };
-    /// Along the mean normal of the source to a face.
+    /// Along the mean normal of the source, up to a face.
     struct ToFace {
         const topology::Model* model = nullptr; ///< model that `face` belongs to
         FaceId face;
     };
-    /// A value that changes along the sweep: linear from the source to `last` at the other end, or a function
-    /// of the relative height in [0, 1].
+    /// A value that changes along the sweep: either linear, with the value `last` at the target, or a
+    /// function of the relative height in [0, 1].
     struct Profile {
         double last = 0;
         std::function<double(double height)> at{}; ///< null: linear
     };
 
     std::variant<Vector, Axis, Helix, Path, Normals, ToFace> course;
-    std::optional<Profile> twist; ///< of the section, 0 at the source [degree]
-    std::optional<Profile> scale; ///< of the section, 1 at the source [-]
+    std::optional<Profile> twist; ///< angle by which the section is turned, 0 at the source [degree]
+    std::optional<Profile> scale; ///< size of the section relative to the source, 1 at the source [-]
 };
 
 /// The void entities added to seal the volume, and how they were made.
@@ -112,7 +114,7 @@ struct Closure {
     std::vector<std::size_t> assumptions; ///< indices of the notes that change the volume by more than 2 %
 };
 
-/// A sealed volume: the given faces, then the void ones; and how it was sealed.
+/// A sealed volume, and how it was sealed. The given faces come first, then the void faces.
 struct Closed {
     topology::OpenVolume volume;
     Closure closure;
@@ -120,10 +122,11 @@ struct Closed {
 
 /// Seal a volume: add void edges and faces with their geometry, and give every face its role.
 ///
-/// Uses Algorithms 2–6 of the paper and, for classes II to V, one of 8–11. In class IV the missing end is
-/// added, in class V both ends. Departure: where walls cover only part of the height, a void edge spans the
-/// gap between the two vertices of each matched pair; the paper joins only vertices that are on no wall.
-/// @param match   of source and target; ignored for classes IV and V, which lack an end.
+/// Uses Algorithms 2–6 of the paper (docs/bibliography.md) and, for classes II to V, one of its Algorithms
+/// 8–11. In class IV the missing end is added, in class V both ends. Departure: if wall edges lead from a
+/// matched vertex part of the way to the other one, a void edge closes the rest of the way; the paper joins
+/// only vertices that are on no wall.
+/// @param match  the match of source and target; ignored for classes IV and V, which lack an end.
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, the reason, and a shape or
 ///         direction that would seal it. "closure.shape_open": the shape of the missing faces is ambiguous
 ///         and neither a shape nor `take_guess` was given; names the adjacent faces. "closure.holes_open": an

@@ -33,8 +33,8 @@ void note(Closure& closure, const std::string& algorithm)
     if (std::ranges::find(list, algorithm) == list.end()) list.push_back(algorithm);
 }
 
-/// A missing target with the source's shape, moved to the walls' rim by the affine map fitted to the walls'
-/// sections.
+/// A missing target with the shape of the source, moved to the walls' free rim by an affine map. The map is
+/// fitted to the sections of the walls (`Follower`).
 VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loops, const Subject& face,
                          const RunContext& context)
 {
@@ -77,8 +77,9 @@ void add_faces(OpenVolume& volume, Closure& closure, const std::vector<std::vect
     closure.void_faces.insert(closure.void_faces.end(), made.begin(), made.end());
 }
 
-/// Reverse the target if the match traverses its loops against their direction: without walls between the
-/// ends, only the match tells how they face each other. Walls that touch only the target are reversed too.
+/// Flip the target and the walls that touch only the target, if the match traverses the target's loops
+/// against their direction. Without walls between the ends, only the match determines their orientation to
+/// each other.
 void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 {
     if (match.loops.empty() || !match.loops.front().flipped) return;
@@ -106,7 +107,8 @@ void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
     note(closure, "Algorithm 3");
 }
 
-/// A loop without any wall is connected by void edges only, so it needs matched vertices.
+/// @throw NotClosed  a loop of the source has neither a wall nor a matched vertex, so nothing would connect
+///         it to the target.
 void check_matched(const OpenVolume& volume, const matching::Match& match)
 {
     for (std::size_t l = 0; l < match.source_loops.size(); ++l) {
@@ -127,8 +129,8 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
 }
 
 /// Close classes I to III. The paper has no algorithm for class I; it is closed as class II without given
-/// walls. In class III every vertex is on a wall, so void edges are added only where that wall does not reach
-/// the other end.
+/// walls. In class III every vertex is on a wall. Void edges are added only where a wall does not reach the
+/// other end.
 void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& tools, Closure& closure)
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
@@ -148,8 +150,8 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     add_void_walls(volume, tools, closure);
 }
 
-/// Whether a rim is a hole in walls: the walls next to it lie in its plane. Walls that merely end at a rim
-/// are at an angle to its plane.
+/// Whether a rim is a hole in walls: the facets of the walls at the rim lie about in the rim's plane. At the
+/// free rim of a tube they are about perpendicular to it.
 bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
 {
     const double kBetween = std::numbers::sqrt2 / 2; // 45°, halfway between walls in the plane and walls
@@ -170,8 +172,8 @@ bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
     return beside > kBetween * all;
 }
 
-/// Refuse an edge of the source that has no wall. If a wall lies within a gap that can be sewn, the remedy is
-/// the tolerance that sews it.
+/// Refuse an edge of the source that has no wall. If only a narrow gap separates a wall from the edge, the
+/// remedy names the tolerance that closes the gap.
 [[noreturn]] void refuse_bare_edge(const Model& model, EdgeId edge, const RunContext& context)
 {
     for (const topology::Gap& gap : gaps(model, context)) {

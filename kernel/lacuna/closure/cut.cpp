@@ -42,7 +42,8 @@ using namespace topology;
 
 namespace {
 
-/// Up to this number of open section lines, all orders of joining them are tried.
+/// Largest number of open section lines for which all ways to join them are tried (7! = 5,040); more lines
+/// are not joined.
 constexpr std::size_t kAllOrders = 7;
 
 class PlaneCutter {
@@ -62,11 +63,10 @@ public:
     /// A region of the plane by its loops, in plane coordinates.
     using Region = std::vector<std::vector<Vec2>>;
 
-    /// Cut the volume, and return the pieces.
-    /// @param suits  whether to cut a region of the plane inside the volume; empty: cut all.
-    /// @param least  set for a cut found by a search: the least distance between the cut and edges beside it.
-    ///         Cut lines across flat faces then lose their inner points, because the sizes of the pieces are
-    ///         not known yet.
+    /// @param suits  whether to cut in a region of the plane inside the volume; empty: cut in all regions.
+    /// @param least  the least distance between the cut and edges beside it; set if a search proposed the
+    ///         cut. If it is set, the inner points of cut lines across flat faces are removed, see
+    ///         `straighten_lines()`.
     std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits, std::optional<double> least)
     {
         orient_walks();
@@ -99,8 +99,8 @@ private:
             const double area = geometry::signed_area(outline(walk));
             if (std::abs(area) > std::abs(most)) most = area;
         }
-        // The outer walk is clockwise if the skin faces outward. If it is not, flip the skin: facets in the
-        // plane would otherwise be assigned to the wrong side.
+        // The largest walk is clockwise if the skin faces outward. If it is counterclockwise, flip the skin:
+        // otherwise facets in the plane would be assigned to the wrong side.
         if (most > 0) {
             flip_faces(model_, all_faces(model_));
             walks_ = section_walks(model_, all_faces(model_), plane_, tolerance_);
@@ -139,7 +139,7 @@ private:
                                .remedy("move its point along the normal to a place between the two"));
     }
 
-    /// Keep the walks round the regions that `suits` accepts.
+    /// Keep the section lines of the regions that `suits` accepts.
     void choose(const std::function<bool(const Region&)>& suits)
     {
         std::vector<std::vector<Vec2>> loops;
@@ -162,8 +162,10 @@ private:
     /// Refuse a cut that leaves a thin strip beside an edge.
     void refuse_thin(double least) const
     {
-        std::vector<char> joined(model_.vertices.size(), 0); // by vertex: ends an edge that meets the plane
-        std::vector<std::pair<EdgeId, Vec3>> near;           // edges near the plane, with their nearest place
+        std::vector<char> joined(model_.vertices.size(), 0); // by vertex: whether it is the end of an edge
+                                                             // that meets the plane
+        std::vector<std::pair<EdgeId, Vec3>> near;           // edges near the plane, with the middle of their
+                                                             // segment nearest to it
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             const Edge& edge = model_.edges[e];
             double low = kInfinity, high = -kInfinity, next = least;
@@ -238,8 +240,10 @@ private:
         return flat_places(plane_, use_places(model_, uses));
     }
 
-    /// For each open line, the line that continues it after a straight connection. The connections have the
-    /// least total length and cross nothing. Empty if there is no such order, or if there are too many lines.
+    /// Join open section lines to loops by straight connections, so that no lines cross and the total length
+    /// of the connections is least.
+    /// @return  for each line: the next line of its loop. Empty if all ways to join the lines cross, or if
+    ///         there are more than `kAllOrders` lines.
     [[nodiscard]] std::vector<std::size_t> join(const std::vector<std::vector<Vec2>>& lines) const
     {
         std::vector<std::size_t> order(lines.size()), best;
@@ -284,7 +288,7 @@ private:
 
     void add_partitions(const WalkImprint& made)
     {
-        std::vector<std::vector<EdgeUse>> loops, skin; // `skin` lacks the new edges across gaps
+        std::vector<std::vector<EdgeUse>> loops, skin; // `skin`: the loops without the new edges across gaps
         std::vector<std::vector<EdgeUse>> open;
         for (std::size_t w = 0; w < walks_.size(); ++w) {
             if (walks_[w].closed) {
@@ -350,7 +354,8 @@ public:
     {
     }
 
-    /// Whether the rim runs along edges; otherwise stores the place where it leaves them.
+    /// Whether the rim of the face runs along edges of the volume. If not, `off()` is the place where it
+    /// leaves them.
     bool fits()
     {
         std::vector<Index> of_edges;
@@ -420,12 +425,12 @@ private:
     const Model& model_;
     FaceId face_;
     double tolerance_;
-    std::map<Index, Index> there_; ///< points of the face to points of the volume
+    std::map<Index, Index> there_; ///< point of the volume for each point of the face
     std::vector<EdgeUse> rim_;
     Vec3 off_ = Vec3::Zero();
 };
 
-/// The volume closed as a whole; empty if that fails.
+/// The closed volume; empty if it cannot be closed.
 std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& context)
 {
     if (classify(volume).value == VolumeClass::V && !no_tube(volume).empty()) {
@@ -448,16 +453,16 @@ std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plan
 {
     PlaneCutter cutter(volume, plane, context);
     if (cutter.crosses_gaps()) {
-        // Close the whole volume first, so that the missing faces of the pieces have its shape, including its
-        // corners.
+        // Close the volume before it is cut, so that void faces of the pieces are parts of those of the
+        // volume.
         if (const std::optional<OpenVolume> whole = sealed(volume, context))
             return PlaneCutter(*whole, plane, context).run(suits, least);
     }
     return cutter.run(suits, least);
 }
 
-/// Whether some of the facets lie in a region of the plane: they contain the centre of one of the triangles
-/// into which the region is divided.
+/// Whether some facets lie in a region of the plane. The region is triangulated; the result is true if the
+/// centre of a triangle lies on a facet.
 bool contains_facets(const std::vector<std::vector<Vec2>>& region, const geometry::Plane& plane,
                      const geometry::FacetTree& facets, double tolerance, const RunContext& context)
 {
@@ -472,7 +477,7 @@ bool contains_facets(const std::vector<std::vector<Vec2>>& region, const geometr
     });
 }
 
-/// Whether a face belongs to the volume, or did before the volume was split.
+/// Whether a face belongs to the volume, or to the volume before its faces were split.
 bool is_own(const OpenVolume& volume, const Model& model, FaceId face)
 {
     const geometry::FacetTree facets(model.points, model[face].triangles);

@@ -27,8 +27,8 @@ using namespace topology;
 
 namespace {
 
-/// Divide loops so that none passes a vertex twice: where two missing faces touch in a vertex, one free loop
-/// runs round both.
+/// Divide loops that pass a vertex twice into loops that do not. If two missing faces touch in a vertex, one
+/// free loop runs around both of them.
 std::vector<Rim> simple_loops(const Model& model, const std::vector<Rim>& loops)
 {
     std::vector<Rim> simple;
@@ -117,8 +117,8 @@ void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunCo
     }
 }
 
-/// Fill the free loops of some faces. The result may be open or cross itself; the caller checks it by
-/// `prove()`.
+/// Fill the free loops of some faces. The result may be open or cross itself; the caller checks the result
+/// with `prove()`.
 std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<FaceId>& faces, Missing missing,
                                       const RunContext& context)
 {
@@ -127,8 +127,7 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
     volume.model = extract(model, faces);
     orient_consistently(volume.model);
     volume.role.assign(faces.size(), Role::wall);
-    // Filling fails in two cases: the straight edge of a ridge across a notch would be outside the rim, or a
-    // bent face folds.
+    // Filling fails if a straight edge across a notch lies outside the rim, or if a bent face folds.
     return unless_refused([&]() -> std::optional<FlatFilling> {
                const std::optional<ToFill> loops = loops_to_fill(result, missing, context);
                if (!loops) return std::nullopt;
@@ -167,13 +166,13 @@ std::optional<FlatFilling> fill_and_note(const Model& model, const std::vector<F
     return filled;
 }
 
-/// Largest angle between the source's plane and a new face of the missing end [degrees]; chamfers and roof
-/// slopes are below it. Steeper new faces, such as the risers of steps, are walls. If all are steeper, the
-/// least steep form the end.
+/// Largest inclination to the source of a new face that belongs to the missing end [degrees]. Chamfers and
+/// roof slopes are less inclined. Steeper new faces, such as the risers of steps, are walls. If all new faces
+/// are steeper, the least steep ones form the end.
 constexpr double kSlope = 60;
 
-/// Make the new faces that are least inclined to the source, by up to `kSlope`, its target. The others stay
-/// walls.
+/// Make the new faces that are inclined to the source by at most `kSlope` the target; if there are none, the
+/// least inclined ones. The other new faces stay walls.
 void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source)
 {
     const Model& model = filling.volume.model;
@@ -188,8 +187,8 @@ void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source
         if (facing(face) >= enough) filling.volume.role[face.index()] = Role::target;
 }
 
-/// Whether the source can be swept to the target: the target has as many loops as the source, or consists of
-/// several connected parts, as a stepped end does.
+/// Whether the source can be swept to the target: both have the same number of loops, or the target has
+/// several connected parts (a stepped end).
 bool can_be_swept_to(const OpenVolume& volume, const std::vector<FaceId>& source)
 {
     const std::vector<FaceId> target = volume.faces(Role::target);

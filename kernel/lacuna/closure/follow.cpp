@@ -21,14 +21,14 @@ constexpr double kAstray = 0.005;
 /// kAstrayGuessed otherwise. The limits are higher because walls with a given mesh, and single twisted walls
 /// of few facets, have as much bow even if the true wall is straight.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
-/// Walls that do not form a ring and whose bow exceeds kBeside may not be part of a sweep. Edges that follow
-/// them are then tried before straight ones only if they leave their chord by more than kFarAstray. Both are
-/// shares of the rims' radius.
+/// Walls that do not form a ring and whose bow exceeds kBeside may not be part of a sweep. Void edges that
+/// follow such walls are tried before straight ones only if an edge leaves its chord by more than kFarAstray.
+/// Both values are shares of the rims' radius.
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
-/// If some walls form rings, a loop with open walls gets a motion of its own only if these walls are further
-/// than this share of the loop's radius (median) from where the rings' motion takes their lower edge. Below
-/// it, the rings represent the bend better. On 350 bent, twisted and tapered tubes the distance was at most
-/// 0.005 in nine of ten cases; on a lofted pipe it was 0.017.
+/// If some walls form rings, a loop whose walls form no ring gets a motion of its own only if
+/// `missed_by_all()` of the loop exceeds this. Below this value, the rings represent the bend better. On 350
+/// bent, twisted and tapered tubes the distance was at most 0.005 in nine of ten cases; on a lofted pipe it
+/// was 0.017.
 constexpr double kMissed = 0.01;
 
 /// Mean distance of points from their centroid; 0 if there are none.
@@ -65,9 +65,8 @@ double median(std::vector<double> values)
     return *middle;
 }
 
-/// The bow of walls: how far they are from straight lines between the rims, as a share of the source rim's
-/// radius. For each point of a rim the largest distance over the heights is taken; the result is the median
-/// of these.
+/// See `Follower::bow()`.
+/// @param levels  points of the sections, from the source to the target.
 double bow_of(const std::vector<std::vector<Vec3>>& levels)
 {
     constexpr std::size_t kStep = 4; // checks every fourth level only, to save time

@@ -16,7 +16,8 @@ using namespace topology;
 
 namespace {
 
-/// Mismatch between the first and the third side after the first is moved along the second and the fourth.
+/// Difference between the third side and the first side moved along the second and the fourth, see
+/// `SweptPatch::unlike()`.
 double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
 {
     std::array<std::vector<Vec3>, 4> side;

@@ -24,17 +24,17 @@ using namespace topology;
 
 namespace {
 
-/// Number of planes tried through each principal axis. Polygonal rings with at most this number of sides are
-/// cut near the middle of a side.
+/// Number of planes tried through each principal axis. They are fine enough to cut a polygonal ring with at
+/// most this number of sides near the middle of a side.
 constexpr int kDirections = 8;
-/// Section lengths that differ by less than this share count as equal, and the plane found first is tried
-/// first. Otherwise the sag of facets would decide between planes through a round wall.
+/// Section lengths that differ by less than this share count as equal; of such planes, the first one found is
+/// tried first. Otherwise the sag of facets would decide between planes through a round wall.
 constexpr double kAsShort = 0.02;
 
-/// Number of sections that measure the length of the turn. The chords of a half circle are then too short by
-/// 0.2 %; each section costs a pass over the walls.
+/// Number of chords with which the length of a piece is measured. For a half circle, the measured length is
+/// too short by 0.2 %. Each chord costs a pass over the walls.
 constexpr std::size_t kSections = 16;
-/// Share of the turn of each piece if the lengths cannot be measured.
+/// Share of the turn of each piece if their lengths cannot be measured.
 constexpr double kHalf = 0.5;
 
 struct Candidate {
@@ -78,8 +78,8 @@ std::vector<Candidate> candidates_of(const Model& model, const RunContext& conte
     std::vector<Candidate> found;
     for (int a = 0; a < 3; ++a) {
         const Vec3 axis = walls.axis.col(a);
-        // Start at a vertex: on a round wall, a plane near the seam, but not through it, would leave a
-        // sliver.
+        // Start at a vertex, so that the first plane runs through a seam. On a round wall, a plane close to
+        // the seam would leave a sliver.
         Vec3 first = Vec3::Zero();
         for (const Vertex& vertex : model.vertices) {
             const Vec3 out = model.at(vertex.point) - walls.centre;
@@ -153,7 +153,7 @@ double arc_length(const OpenVolume& volume)
     return geometry::length(line);
 }
 
-/// Whether a ring was cut across: both pieces have both cuts as ends.
+/// Whether a ring was cut across: there are two pieces, and all ends of both are cut faces.
 bool is_cut_across(const std::vector<StepPiece>& pieces)
 {
     return pieces.size() == 2 && std::ranges::all_of(pieces, [](const StepPiece& piece) {

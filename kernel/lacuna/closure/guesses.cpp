@@ -34,25 +34,25 @@ using namespace topology;
 
 namespace {
 
-/// A bent face is ambiguous if more than this share of the enclosed volume lies between the face and its
-/// plane: another bend of the face would change the volume by about as much.
+/// A bent face is ambiguous if more than this share of the enclosed volume lies between the face and its mean
+/// plane. Another bend of the face would change the volume by about as much.
 constexpr double kDoubt = 0.05;
-/// A missing end is ambiguous if more than this share of the enclosed volume lies between it and another
-/// smooth face over its rim. Measured on 893 ends over twelve outlines. Of the 762 accepted ends, 12 have a
-/// volume error above 3 % and 719 an error below 1 %. Of the 131 refused ends, which include those with
-/// straight rims, 41 have an error above 3 % and 70 an error below 1 %.
+/// A missing end is ambiguous if more than this share of the enclosed volume lies between the end and another
+/// smooth face over its rim. Measured on 893 ends over twelve outlines: 762 ends are accepted; of these, 12
+/// have a volume error above 3 %, and 719 one below 1 %. 131 ends are refused, those with straight rims
+/// included; of these, 41 have an error above 3 %, and 70 one below 1 %.
 constexpr double kBendDoubt = 0.03;
 /// A rim is rough, not bent, if its points deviate from a plane by at most this share of its diameter, as in
 /// scans of cut bones.
 constexpr double kRough = 0.05;
 
-/// Volume between a face and heights over a plane [model length³].
+/// Volume between a face and another surface, given as heights over a plane [model length³].
 struct Between {
-    double all = 0, above = 0; ///< `all`: on both sides of the face; `above`: the part above it minus the
-                               ///< part below it
+    double all = 0, above = 0; ///< `all`: in total; `above`: where the surface is above the face, minus where
+                               ///< it is below
 };
 
-/// @return  empty if the heights are undefined over part of the face.
+/// @return  empty if the surface is undefined over a part of the face.
 template <class Heights>
 std::optional<Between> between(const Model& model, FaceId face, const geometry::Plane& plane,
                                const Heights& heights)
@@ -113,12 +113,12 @@ std::vector<double> turns_of(const std::vector<Vec3>& chain)
     return turns;
 }
 
-/// Whether an edge is straight between a few kinks.
+/// Whether an edge consists of straight segments with a few kinks between them.
 bool is_straight_between_kinks(const Model& model, const EdgeUse& use)
 {
-    // An edge is straight between kinks if its `kKinks` sharpest kinks make at least the share `kTurnedThere`
-    // of its turn. A ridge, a chamfer or a notch has up to three kinks. A curve of four segments counts too;
-    // a larger `kKinks` would also admit finer curves.
+    // The `kKinks` sharpest kinks of such an edge make at least the share `kTurnedThere` of the edge's total
+    // turn. A ridge, a chamfer or a notch has up to three kinks. A curve of four segments is accepted too; a
+    // larger `kKinks` would also accept finer curves.
     constexpr std::size_t kKinks = 3;
     constexpr double kTurnedThere = 0.9;
     if (is_straight(model, {use})) return true;
@@ -134,8 +134,8 @@ bool is_straight_sided(const Model& model, const Loop& loop)
                                [&](const EdgeUse& use) { return is_straight_between_kinks(model, use); });
 }
 
-/// Whether a polygonal rim is too far off a plane. The measure is the volume under a roof (half of the face's
-/// projected area times the largest distance of a rim point from the plane), compared with the enclosed
+/// Whether a polygonal rim is too far off a plane. The measure is half of the face's projected area times the
+/// largest distance of a rim point from the plane (the volume under a roof), as a share of the enclosed
 /// volume.
 bool is_rim_far_off_plane(const Model& model, double enclosed, FaceId face, const Loop& loop)
 {
@@ -143,8 +143,9 @@ bool is_rim_far_off_plane(const Model& model, double enclosed, FaceId face, cons
     return furthest * face_area_vector(model, face).norm() / 2 >= kDoubt * enclosed;
 }
 
-/// Whether the shape of a missing end is ambiguous. A rim of straight sides that is far off a plane suggests
-/// several flat faces. For other rims, the volume between two smooth faces over the rim decides.
+/// Whether the shape of a missing end is ambiguous. A rim of more than four straight sides that is far off a
+/// plane suggests several flat faces, so the shape is ambiguous. For other rims, the volume between the end
+/// and the thin plate over the rim decides.
 bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
 {
     for (const Loop& loop : model[face].loops)
@@ -154,7 +155,8 @@ bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
     return beside_thin_plate(model, face).all >= kBendDoubt * enclosed;
 }
 
-/// Whether a missing end was blended between four sides and no two opposite sides are straight.
+/// Whether a void face is an end that was blended between four sides, of which no two opposite ones are
+/// straight.
 bool is_end_between_bent_sides(const OpenVolume& sealed, FaceId face)
 {
     const Model& model = sealed.model;
@@ -164,7 +166,7 @@ bool is_end_between_bent_sides(const OpenVolume& sealed, FaceId face)
     return !sides.empty() && !is_ruled(model, sides);
 }
 
-/// Whether a smooth face over a rim is far off one of the quadrics through the rim.
+/// Whether a smooth void face is far from one of the quadrics through its rim.
 bool may_lie_on_other_quadric(const OpenVolume& sealed, double enclosed, FaceId face)
 {
     const Model& model = sealed.model;
@@ -179,8 +181,8 @@ bool may_lie_on_other_quadric(const OpenVolume& sealed, double enclosed, FaceId 
     return std::ranges::any_of(shapes.told.empty() ? shapes.possible : shapes.told, is_far_off);
 }
 
-/// Whether a void face closes a rough rim: one that is nearly planar and over which smooth faces enclose
-/// about the same volume.
+/// Whether a void face closes a rough rim: the rim is nearly planar, and different smooth faces over it
+/// enclose about the same volume.
 bool closes_rough_rim(const Model& model, double enclosed, FaceId face)
 {
     std::vector<Vec3> places;
@@ -198,7 +200,7 @@ bool is_open_far_off_plane(const Model& model, double enclosed, FaceId face)
     return is_far_off_plane(model, enclosed, face) && is_membrane(model, face);
 }
 
-/// Whether the rim of a void face leaves its shape ambiguous, ignoring roughness.
+/// Whether the rim of a void face leaves the shape of the face ambiguous, if rough rims count as well.
 bool is_rim_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy by)
 {
     const Model& model = sealed.model;
@@ -237,7 +239,7 @@ bool is_end_away_from(const Model& model, const std::vector<FaceId>& void_faces,
     });
 }
 
-/// Whether the given faces face into the sealed volume, as those of a hollow in a solid do.
+/// Whether the normals of all given faces point into the sealed volume, like those of a hollow in a solid.
 bool look_inward(const Model& model, const std::vector<FaceId>& given, const Model& sealed)
 {
     const auto normal = [](const Model& of, FaceId face) {
@@ -289,8 +291,8 @@ void note_one_wall(const Model& model, FaceId face, Closure& closure)
            1);
 }
 
-/// Note flat void faces in circles: balls, cones and rings go through a circle as well, and no edge shows
-/// which of these is missing.
+/// Note flat void faces in circles. Balls, cones and rings go through a circle as well, and no edge shows
+/// which of these faces is missing.
 void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
 {
     std::vector<FaceId> flat;
@@ -316,7 +318,7 @@ void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
            1);
 }
 
-/// Largest distance of the other void faces from the mean plane of one void face [model length].
+/// Largest distance of the centroids of the other void faces from the mean plane of `face` [model length].
 double reach_of_others(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
     const geometry::Plane plane = mean_plane(model, face);
@@ -428,8 +430,8 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                std::abs(beside_thin_plate(model, face).above) / enclosed);
     if (by == RolesBy::finding) note_flat_in_circles(model, enclosed, closure);
     for (const FaceId face : closure.void_faces) {
-        // If the user named the roles, exactly one wall is missing at such a rim. Otherwise the void face may
-        // stand for several faces.
+        // If the user named the roles, exactly one wall is missing at such a rim. Otherwise several faces may
+        // be missing there.
         if (by == RolesBy::finding && !is_membrane(model, face) &&
             (is_untold(model, face) || closes_hole_in_bent_face(model, face)))
             note_one_wall(model, face, closure);

@@ -31,14 +31,14 @@ using namespace topology;
 
 namespace {
 
-/// The edges at a vertex as three right-handed axes, seen from inside the volume. For each edge: the face at
-/// the vertex that the edge does not bound.
+/// The three edges at a vertex, in the order of right-handed axes into the volume. `across[k]` is the face at
+/// the vertex that edge `k` does not bound.
 struct Net {
     std::array<EdgeId, 3> edge;
     std::array<FaceId, 3> across;
 };
 
-/// Whether each face is bounded by one loop of at least three edges between different faces, and keeps no
+/// Whether each face is bounded by one loop of at least three edges between different faces, and has no given
 /// mesh.
 bool has_simple_faces(const Model& model)
 {
@@ -93,8 +93,8 @@ Vec3 centroid(const Model& model)
     return origin + sum / volume;
 }
 
-/// The corners of a block. Corner 0 is the vertex. The neighbour of corner c along axis k is corner
-/// c ^ (1 << k).
+/// The eight corners of the block at a vertex of the volume, as indices of places in `Middles`. Corner 0 is
+/// that vertex. The neighbour of corner c along axis k is corner c ^ (1 << k).
 using Block = std::array<std::size_t, 8>;
 
 /// The places of vertices, middles of edges, middles of faces and the middle of the volume, in this order.
@@ -127,7 +127,7 @@ public:
     [[nodiscard]] const Vec3& of_face(std::size_t face) const { return places_[faces_ + face]; }
     [[nodiscard]] const Vec3& of_volume() const { return places_.back(); }
 
-    /// The least scaled Jacobian of all blocks, with straight edges.
+    /// The least scaled Jacobian at the corners of all blocks; edges of blocks are taken as straight.
     [[nodiscard]] double least() const
     {
         double least = 1;
@@ -136,9 +136,9 @@ public:
         return least;
     }
 
-    /// Move the middles of faces (unless `fixed`) and of the volume along the coordinate axes, in ever
-    /// shorter steps, where this improves the adjacent blocks. The middles of cut faces stay, because the
-    /// neighbouring piece uses them too.
+    /// Move the middles of faces (unless `fixed`) and of the volume, where this improves the adjacent blocks.
+    /// Moves are along the coordinate axes, in ever shorter steps. The middles of cut faces stay at their
+    /// centroids, because the adjacent piece shares these faces.
     void improve(bool fixed, const RunContext& context)
     {
         constexpr double kFirst = 0.25, kShorter = 0.8,
@@ -175,8 +175,8 @@ private:
         return std::popcount(corner) % 2 == 0 ? volume : -volume;
     }
 
-    /// Sum of a high power of 1 − scaled Jacobian over the corners of the blocks at a place: the worst corner
-    /// dominates.
+    /// Sum of (1 − scaled Jacobian)^8 over all corners of the blocks at a place. The high power makes the
+    /// worst corner dominate.
     [[nodiscard]] double loss_at(std::size_t place) const
     {
         constexpr int kPower = 8;
@@ -216,7 +216,7 @@ protected:
         std::ranges::fill(volume_.role, Role::wall);
     }
 
-    /// Split a face along plane sections from points of its rim to a place on it.
+    /// Split a face along plane sections from points of its rim to a place on the face.
     /// @return  the edges of each line; empty if a section leaves the face.
     std::vector<std::vector<EdgeUse>> split_face(FaceId face, const Vec3& place,
                                                  const std::vector<Index>& from)
@@ -232,7 +232,7 @@ protected:
         }
         model_ = std::move(builder).finish();
         const Vec3 middle = model_.at(centre);
-        std::vector<SectionWalk> walks; // earlier walks now run along edges; they are kept because they still
+        std::vector<SectionWalk> walks; // lines of earlier sections are kept: they are edges now, and still
                                         // separate parts of the face
         std::vector<std::vector<EdgeUse>> lines;
         for (const Index start : from) {
@@ -286,10 +286,10 @@ protected:
     const RunContext& context_;
     OpenVolume volume_;
     Model& model_;
-    std::vector<FaceId> whole_; ///< by face of the split skin: the face it is part of
+    std::vector<FaceId> whole_; ///< by face of the split skin: the face of the input that it is a part of
 };
 
-/// Divides a volume whose vertices have three edges each.
+/// Divides a volume into blocks. Each vertex of the volume has three edges.
 class Divider : Splitter {
 public:
     Divider(const OpenVolume& volume, std::vector<Net> net, const RunContext& context)
@@ -297,8 +297,8 @@ public:
     {
     }
 
-    /// @param fixed  whether the middles of faces stay at their centroids, because the neighbour that shares
-    ///         the face puts them there.
+    /// @param fixed  whether the middles of faces stay at their centroids, so that volumes that share a face
+    ///         agree.
     std::vector<OpenVolume> run(bool fixed)
     {
         const std::size_t edges = model_.edges.size(), faces = model_.faces.size();
@@ -326,8 +326,8 @@ public:
     }
 
 private:
-    /// Add the edges from the middles of faces to the middle of the volume, and a face for each edge of the
-    /// skin.
+    /// Add the edges from the middles of faces to the middle of the volume. Add a face for each edge of the
+    /// skin, between the blocks at the edge's ends.
     void join_middles(VertexId middle)
     {
         std::map<VertexId, EdgeUse> spoke;
@@ -362,13 +362,13 @@ private:
 
     std::vector<Net> net_;
     std::vector<VertexId> middle_of_edge_, middle_of_face_;
-    std::vector<std::vector<std::vector<EdgeUse>>> lines_; ///< by edge: lines from its middle to the middles
-                                                           ///< of its faces
+    std::vector<std::vector<std::vector<EdgeUse>>> lines_; ///< by edge: the lines from the middle of the edge
+                                                           ///< to the middles of its two faces
     std::vector<FaceId> between_; ///< by edge: the face between the blocks at its ends
 };
 
-/// Divides a volume into cones from its middle. Their bases are the three-sided faces and the triangles of
-/// the other faces, which are split by lines from their vertices to their middles.
+/// Divides a volume into cones with their apex at the volume's centroid. The base of a cone is a three-sided
+/// face, or a triangle of another face: such a face is split by lines from its vertices to its centroid.
 class ConeMaker : Splitter {
 public:
     ConeMaker(const OpenVolume& volume, const RunContext& context) : Splitter(volume, context) {}

@@ -34,18 +34,19 @@ using namespace topology;
 
 namespace {
 
-/// Tolerance of the motion, as a share of the end's width: how far a moved foot of a wall may be from the top
-/// of the wall, and a point of a straight side from its line. It exceeds the sag of round sides.
+/// Tolerance of the motion, as a share of the end's width. It limits two distances: that of a moved foot of a
+/// wall from the top of the wall, and that of a point of a straight side from its line. It exceeds the sag of
+/// round sides.
 constexpr double kOnTop = 0.01;
-/// Number of sample points along each wall's foot, at which the fit is made and tested.
+/// Number of sample points along the foot of each wall. The motion is fitted and tested at these points.
 constexpr int kSamples = 8;
 
-/// A segment of an end's rim between two vertices from which wall edges lead up, with walls along it or
-/// without.
+/// A part of an end's rim between two vertices from which wall edges lead to the other end. Either all of its
+/// edges have walls, or none has.
 struct Stretch {
-    std::vector<EdgeUse> foot; ///< uses by the end
-    std::vector<EdgeUse> top;  ///< uses by the walls, starting above the start of the foot; empty: there is
-                               ///< no wall here
+    std::vector<EdgeUse> foot; ///< edges on the end's rim, as the end uses them
+    std::vector<EdgeUse> top;  ///< edges at the other end of the walls, as the walls use them, from the start
+                               ///< of `foot` to its end; empty: there is no wall here
 };
 
 double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
@@ -56,8 +57,8 @@ double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
     return least;
 }
 
-/// The flat faces with some adjacent walls given and others missing, in the order of the model. If there are
-/// too many, those with the most adjacent faces are kept.
+/// The flat faces beside which some faces are given and others are missing, in the order of the model. Of
+/// more than `kMost` such faces, those with the most adjacent faces are kept.
 std::vector<FaceId> possible_ends(const Model& model)
 {
     constexpr std::size_t kMost = 16; // limits run time: each may be closed on trial
@@ -76,7 +77,8 @@ std::vector<FaceId> possible_ends(const Model& model)
     return ends;
 }
 
-/// Moves a given end to the missing end, part of whose rim is known.
+/// Moves a given end to the missing end. A part of the missing end's rim is known: the tops of the given
+/// walls.
 class EndMover {
 public:
     /// @pre  the volume's model is oriented, its source is the given end, and all other faces are walls
@@ -147,7 +149,8 @@ public:
 private:
     [[nodiscard]] bool is_free(EdgeId edge) const { return volume_.model.uses_of_edge(edge).size() == 1; }
 
-    /// Index the free uses of the walls by their start vertex. False if two of them leave the same vertex.
+    /// Index the free edges of the walls, as used by the rim, by their start vertex. False if two of them
+    /// start at the same vertex.
     bool index_rim(const Rim& rim)
     {
         const Model& model = volume_.model;
@@ -161,8 +164,8 @@ private:
         return true;
     }
 
-    /// The chain of free wall edges from one vertex to another; empty if it passes a vertex of the end or
-    /// does not lead there.
+    /// The chain of free wall edges from one vertex to another. Empty if there is none, or if it passes a
+    /// vertex of the given end.
     [[nodiscard]] std::vector<EdgeUse> top_between(VertexId from, VertexId to) const
     {
         std::vector<EdgeUse> top;
@@ -219,11 +222,12 @@ private:
         return true;
     }
 
-    /// Add the rim of ring walls that have no edge from rim to rim. Their top is the only free rim.
+    /// Add a rim whose walls form a ring without an edge from rim to rim. The top of these walls is the only
+    /// free rim.
     bool add_tube(const Rim& rim)
     {
         const Model& model = volume_.model;
-        // Several free rims: it is ambiguous which one belongs to the tube.
+        // With several free rims, it is ambiguous which one is the top of the ring.
         if (free_rims_.size() != 1) return false;
         const std::vector<Vec3> low = use_places(model, rim.uses),
                                 high = use_places(model, free_rims_[0].uses);
@@ -253,7 +257,8 @@ private:
         return geometry::even_places(use_places(volume_.model, uses), kSamples);
     }
 
-    /// Whether every free edge is at the end's rim, or at the top or side of a wall.
+    /// Whether every free edge of the walls belongs to the top of a wall or to a chain that leads up to a
+    /// top.
     [[nodiscard]] bool accounts_for_all() const
     {
         std::set<EdgeId> known = accounted_;
@@ -262,8 +267,7 @@ private:
         return known.size() == free_count_;
     }
 
-    /// Fit the motion of the end. False if no motion moves every foot onto its top and the missing sides are
-    /// not straight lines either.
+    /// Find the motion of the end, see `move_ends()`. False if there is none.
     bool fit()
     {
         if (from_.empty()) return false;
@@ -297,9 +301,12 @@ private:
         return goes_straight(width) && moves_all(width);
     }
 
-    /// Whether the missing sides of the moved end can be taken as straight lines. This holds if the sides
-    /// without walls are straight and lie between corners with walls, and if the tops of the walls lie in one
-    /// plane and are straight where their feet are straight.
+    /// Whether straight lines between the tops of the given walls can complete the rim of the missing end.
+    /// Conditions:
+    /// - each side of the given end without a wall is straight;
+    /// - no rim lacks all its walls;
+    /// - a wall with a straight foot has a straight top;
+    /// - all tops lie in one plane.
     [[nodiscard]] bool goes_straight(double width) const
     {
         const auto straight = [&](const std::vector<EdgeUse>& uses) {
@@ -327,7 +334,8 @@ private:
         });
     }
 
-    /// Whether every part of the rim without walls moves; where it stays in place, the ends would coincide.
+    /// Whether the motion moves every point of the rim that has no wall. Where a point stays in place, both
+    /// ends would coincide.
     [[nodiscard]] bool moves_all(double width) const
     {
         return std::ranges::all_of(rims_ | std::views::join, [&](const Stretch& stretch) {
@@ -337,12 +345,12 @@ private:
         });
     }
 
-    /// Whether walls stand along enough of the end's outline, its longest loop, to determine the scale of the
-    /// moved end.
+    /// Whether enough of the end's outline (its longest loop) has walls to determine the scale of the moved
+    /// end.
     [[nodiscard]] bool tells_scale() const
     {
-        // Minimum share of the outline's length that must have walls. Two walls of five are enough; one wall
-        // of four is not. Walls of bores do not count.
+        // Share of the outline's length that must have walls: two walls of a pentagon are enough, one wall of
+        // a square is not.
         constexpr double kTold = 1.0 / 3;
         double longest = 0, told = 0;
         for (const std::vector<Stretch>& rim : rims_) {
@@ -359,7 +367,7 @@ private:
         return told >= kTold;
     }
 
-    /// Whether the feet of all walls are collinear, so that a rotation of the end about that line would be
+    /// Whether the feet of all walls lie on one line. The rotation about that line would then be
     /// undetermined.
     [[nodiscard]] bool on_line(double width) const
     {
@@ -383,7 +391,7 @@ private:
         return made;
     }
 
-    /// The moved edge, as used by the moved end.
+    /// Add the moved copy of an edge. @return the use by the moved end.
     EdgeUse moved(EdgeUse foot)
     {
         const VertexId from = moved(use_from(volume_.model, foot)), to = moved(use_to(volume_.model, foot));
@@ -410,7 +418,8 @@ private:
     std::vector<Rim> free_rims_;          ///< free rims of walls
     std::size_t free_count_ = 0;          ///< number of free edges of walls
     std::map<VertexId, VertexId> above_;  ///< by vertex of the end, the vertex of the moved end
-    std::set<EdgeId> accounted_;          ///< free wall edges that lead up to the vertices of `above_`
+    std::set<EdgeId> accounted_;          ///< free wall edges on chains that lead up to the vertices of
+                                          ///< `above_`
     std::vector<std::vector<Stretch>> rims_;
     std::vector<Vec3> from_, to_; ///< points on feet and on tops
     std::function<Vec3(const Vec3&)> motion_;
@@ -421,7 +430,7 @@ using Known = std::function<bool(const std::vector<Vec3>&)>;
 
 /// Close a volume by moving its source along the given walls. Empty if that is impossible.
 /// @param known  as for `move_ends()`.
-/// @param stop   output: whether the missing faces exist already; then nothing is closed.
+/// @param stop  output: whether `known` returned true; then nothing is closed.
 std::optional<MovedEnd> move_end(const OpenVolume& open, const Known& known, bool& stop,
                                  const RunContext& context)
 {

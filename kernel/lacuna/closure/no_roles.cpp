@@ -28,9 +28,9 @@ using namespace topology;
 
 namespace {
 
-/// Number of planes tried for a message. Limits run time, as each is a cut.
+/// Largest number of planes tried for a remedy. Each one costs a cut.
 constexpr std::size_t kMostPlanes = 8;
-/// Number of faces that a message lists for a recipe.
+/// Largest number of faces that a remedy lists.
 constexpr std::size_t kMostTyped = 6;
 
 /// A list of faces in recipe syntax; `{ … }` for a long one.
@@ -83,7 +83,7 @@ bool is_cone_to_its_tip(const Model& model, FaceId face)
 /// less.
 EdgeId crossing_of_bores(const Model& model)
 {
-    constexpr double kHalfTurn = 0.7; // upper bound of the mean normal's length: half a turn has 2 / pi
+    constexpr double kHalfTurn = 0.7; // upper bound of the mean normal's length; that of half a turn is 2 / π
     const auto is_bore = [&](FaceId face) {
         return face_area_vector(model, face).norm() < kHalfTurn * face_area(model, face);
     };
@@ -145,7 +145,7 @@ Message why_no_roles(const Model& given, const std::vector<FaceId>& faces, const
                                entity_of(model, edge)),
                        divide);
     std::vector<NamedEntity> tags = entities_of(given, faces);
-    for (NamedEntity& face : tags) face.name.clear(); // keeps the message short
+    for (NamedEntity& face : tags) face.name.clear(); // without names, the message stays short
     return advised(Message("topology.no_roles", "no source, target and walls were found among {}", tags),
                    "name the roles: open_volume{ source = …, target = …, walls = … }");
 }

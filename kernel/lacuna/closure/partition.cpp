@@ -33,11 +33,12 @@ using namespace topology;
 
 namespace {
 
-/// Bounds of the search: with them, a part with hundreds of features takes seconds.
+/// Largest number of trial cuts, and of pieces. With these limits, a volume with hundreds of features takes
+/// seconds.
 constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
-/// Ends of pieces are searched only for this number of cuts, those that leave the least length to cut,
-/// because that search costs more than a cut. The same number limits the planes tried between features and
-/// the axes tried for steps.
+/// Largest number of cuts of a piece for whose pieces ends are searched: those that leave the least length to
+/// cut. The search for ends costs more than a cut. The same number limits the planes between features and the
+/// axes of `cut_in_steps()`.
 constexpr std::size_t kMostRead = 6;
 
 /// A piece and, if it has no ends, the bends and the length that are left to cut.
@@ -45,8 +46,8 @@ struct CutPart {
     StepPiece piece;
     std::vector<Bend> bends;
     double left = 0;       ///< [model length]
-    bool has_cusp = false; ///< whether a bent face meets another at less than kCreaseAngle, as a fillet and
-                           ///< its tangent plane
+    bool has_cusp = false; ///< whether a bent face meets another face at an interior angle below
+                           ///< kCreaseAngle, such as a fillet and its tangent plane
     bool has_ends = false;
     std::vector<StepPiece> blocks{}; ///< blocks into which the piece is divided; empty if it is not divided
 };
@@ -66,8 +67,8 @@ CutPart part_of(StepPiece piece, const RunContext& context)
     return {std::move(piece), std::move(bends), left, has_cusp};
 }
 
-/// Whether an end has a step: a concave edge of more than 60° between two of its faces. Quads on the walls
-/// beside the step would form no rows that a neighbour can continue.
+/// Whether an end has a step: a concave edge of more than 60° between two of its faces. The adjacent piece
+/// could not continue the rows of quads on the walls beside the step.
 bool has_stepped_end(const OpenVolume& volume, const RunContext& context)
 {
     const std::vector<double> turns = concave_turns(volume, context);
@@ -80,7 +81,7 @@ bool has_stepped_end(const OpenVolume& volume, const RunContext& context)
     return false;
 }
 
-/// Give a piece ends to sweep between, if it has some.
+/// Find ends between which a piece can be swept, and set its roles. @return whether there are such ends.
 bool find_ends(StepPiece& piece, const CanSweep& can_sweep, const RunContext& context)
 {
     std::vector<StepPiece> one;
@@ -117,8 +118,8 @@ std::vector<StepPiece> divided_at_middle(const OpenVolume& volume, std::size_t m
     return made;
 }
 
-/// Give each part ends, or divide it at its middle. Empty if that fails for a part, or if there would be more
-/// than `most` pieces.
+/// Find ends of each part, or divide the part at its middle. Empty if both fail for a part, or if there would
+/// be more than `most` pieces.
 std::vector<StepPiece> finished(std::vector<StepPiece> parts, std::size_t most, const CanSweep& can_sweep,
                                 const RunContext& context)
 {
@@ -134,8 +135,8 @@ std::vector<StepPiece> finished(std::vector<StepPiece> parts, std::size_t most, 
     return made;
 }
 
-/// Cut a volume across an edge between coplanar faces, where an earlier cut ended, into parts that have ends
-/// or are divided at their middles; empty if no such cut gives such parts.
+/// Cut a volume along an edge between coplanar faces, perpendicular to these faces; an earlier cut ended at
+/// such an edge. The parts must have ends, or are divided at their middles. Empty if no cut gives such parts.
 std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_t most,
                                             const CanSweep& can_sweep, const RunContext& context)
 {
@@ -202,9 +203,9 @@ std::vector<Vec3> centres_of(const Model& model)
     return centres;
 }
 
-/// Three directions at right angles to each other: normals of flat faces, or directions from one centre to
-/// another. If these do not suffice, the directions point to vertices or points of edges, so that no cut runs
-/// closely beside a seam.
+/// Three perpendicular directions for cuts through a centre. Normals of flat faces and directions to other
+/// centres are preferred. If these do not suffice, directions to vertices or points of edges are used: a cut
+/// then runs through these points, not closely beside a seam.
 std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& centres,
                                   const OpenVolume& volume)
 {
@@ -231,8 +232,9 @@ std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& c
     return {first, second, first.cross(second)};
 }
 
-/// Cut a volume by three planes at right angles through the centre of a sphere or the apex of a cone. A ball
-/// is cut into octants. Each part gets ends or is divided at its middle. Empty if this fails at every centre.
+/// Cut a volume by three planes at right angles through the centre of a sphere or the apex of a cone.
+/// Example: a ball is cut into octants. The parts must have ends, or are divided at their middles. Empty if
+/// no centre gives such parts.
 std::vector<StepPiece> divided_at_centre(const OpenVolume& volume, std::size_t most,
                                          const CanSweep& can_sweep, const RunContext& context)
 {
@@ -257,8 +259,9 @@ std::vector<StepPiece> divided_at_centre(const OpenVolume& volume, std::size_t m
     return {};
 }
 
-/// Divide a part without ends at its middle or, if nothing is left to cut, at an edge between coplanar faces
-/// or at the centre of a round face. @return  the number of additional pieces
+/// Divide a part without ends at its middle or, if no length is left to cut, at an edge between coplanar
+/// faces or at the centre of a sphere or apex of a cone.
+/// @return  the number of additional pieces
 std::size_t divide(CutPart& part, std::size_t most, const CanSweep& can_sweep, const RunContext& context)
 {
     std::ranges::fill(part.piece.volume.role, Role::wall);
@@ -273,13 +276,13 @@ std::size_t divide(CutPart& part, std::size_t most, const CanSweep& can_sweep, c
 /// The pieces of one cut, and the length that is left to cut.
 struct CutTried {
     std::vector<CutPart> parts;
-    double left = 0; ///< of pieces without ends [model length]
+    double left = 0; ///< length to cut in pieces without ends [model length]
 };
 
-/// Cut a piece by each plane that may help and makes no cusp. The cuts that leave the least to cut come
-/// first.
-/// @param whole  false: use all planes; one that lists edges cuts only in its regions that adjoin these
-///         edges. True: use only the planes that list edges, and cut in all their regions.
+/// Cut a piece by each of its `cut_planes()`. Cuts that make a cusp (`CutPart::has_cusp`) are left out. The
+/// cuts that leave the least length to cut come first.
+/// @param whole  false: all planes are used, and a plane with a list of edges cuts only in regions that
+///         adjoin these edges. True: only planes with a list of edges are used, and they cut in all regions.
 std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                const RunContext& context)
 {
@@ -342,13 +345,13 @@ std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, s
     return cuts;
 }
 
-/// Cuts a volume, and its parts in turn, as long as a cut reduces the length left to cut in parts without
-/// ends.
+/// Cuts a volume and then its parts, as long as a cut reduces the length to cut in parts without ends.
 class Cutter {
 public:
     /// @param can_sweep  whether a part can be swept
-    /// @param may_step  whether a part that no cut helps can be swept, perhaps with a step in an end
-    /// @param can_sweep_block  whether a block can be swept, if a part is divided into blocks
+    /// @param may_step  whether a part that cannot usefully be cut further can be swept, if its ends may have
+    ///         steps
+    /// @param can_sweep_block  whether a block of a divided part can be swept
     /// @param least  the least distance between a cut and an edge beside it
     Cutter(const CanSweep& can_sweep, const CanSweep& may_step, const CanSweep& can_sweep_block, double least,
            const RunContext& context)
@@ -371,8 +374,8 @@ public:
         return cuts;
     }
 
-    /// Cut each of the parts `made` from `part` in turn. Returns `part` itself unless one of the resulting
-    /// parts has ends or was divided.
+    /// Cut the parts `made` from `part` further. @return all resulting parts; `part` alone if none of them
+    /// has ends or was divided.
     std::vector<CutPart> cut_on(CutPart part, std::vector<CutPart> made)
     {
         if (pieces_ + made.size() > kMostPieces + 1) return {std::move(part)};
@@ -401,7 +404,8 @@ public:
         return all;
     }
 
-    /// Begin with the whole volume again. The cuts tried so far still count towards `kMostCuts`.
+    /// Reset the number of pieces for another partition of the whole volume. The cuts tried so far still
+    /// count towards `kMostCuts`.
     void start_again() { pieces_ = 1; }
 
 private:
@@ -411,7 +415,8 @@ private:
     std::size_t tried_ = 0, pieces_ = 1;
 };
 
-/// Make the faces of a volume that face along an axis its ends, and the others walls.
+/// Make the faces of a volume that face along an axis the target, those that face against it the source, and
+/// all others walls.
 void set_ends_along(OpenVolume& volume, const Vec3& axis)
 {
     for (const FaceId face : all_faces(volume.model)) {
@@ -422,8 +427,8 @@ void set_ends_along(OpenVolume& volume, const Vec3& axis)
     }
 }
 
-/// The volume with ends along an axis and the rounds at their rims divided. Empty if there are no rounds, or
-/// if the volume cannot be swept along any axis.
+/// The volume with ends along an axis (`set_ends_along()`) and divided rounds at their rims. The first axis
+/// along which the volume has rounds and can be swept is taken; empty if there is none.
 std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const CanSweep& can_sweep,
                                               const RunContext& context)
 {
@@ -441,9 +446,8 @@ std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const Ca
     return std::nullopt;
 }
 
-/// Cut a volume at its steps along an axis. All faces that face along the axis form one end, all that face
-/// against it the other end. An example is packing foam around a tilted product. Empty if no axis gives
-/// pieces that can be swept.
+/// Cut a volume at the steps of its ends along an axis (`set_ends_along()`), for example packing foam around
+/// a tilted product. Empty if no axis gives pieces that can be swept.
 std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
                                     const RunContext& context)
 {
@@ -518,7 +522,7 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
         take_some(divided_at_middle(volume, kMostPieces, can_sweep, context)) ||
         (is_whole && take_some(divided_at_centre(volume, kMostPieces, can_sweep, context))))
         return;
-    // The volume itself may have other ends than those that were tried, such as a top with its chamfers.
+    // The whole volume may have ends that were not tried yet, such as a top with its chamfers.
     if (!is_swept && first.size() == 1)
         first.front().has_ends = find_ends(first.front().piece, suits, context) &&
                                  first.front().piece.volume.role != volume.role;

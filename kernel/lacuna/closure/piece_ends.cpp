@@ -23,23 +23,28 @@ using namespace topology;
 
 namespace {
 
-/// Pieces with more faces keep their ends. Ends are searched among all sets of adjacent faces (bit masks),
-/// whose number grows fast with the number of faces. A piece made by a few cuts has fewer faces.
+/// Pieces with more faces keep their ends. Candidates for ends are sets of adjacent faces, and the number of
+/// such sets grows fast with the number of faces. A piece made by a few cuts has fewer faces. At most 64
+/// faces fit the bit mask `FaceSet`.
 constexpr std::size_t kMostFaces = 40;
 /// Limit of candidate ends of a piece; candidates of few faces come first. 600 suffices for a prism with
 /// twelve sides. A higher limit finds ends that consist of more faces; the cost is quadratic in the limit.
 constexpr std::size_t kMostEnds = 600;
-/// Any two faces of one end have normals at less than 110°; this is its cosine. A lower cosine joins faces
-/// that fold back on each other; a higher one separates the slopes of a steep roof.
+/// The normals of any two faces of an end differ by less than 110°; this is the cosine of 110°. A lower
+/// cosine joins faces that fold back on each other; a higher one separates the slopes of a steep roof.
 constexpr double kOneEnd = -0.35;
+/// The normal of a face of an end differs from the end's mean normal by less than 70°; this is the cosine of
+/// 70°. A steeper face, such as a riser between two steps, is nearly parallel to the columns, and cells at
+/// the face would have almost no volume.
+constexpr double kFacesEnd = 0.34;
 /// A face may belong to an end if its mean normal, which has the length 1 on a flat face, is longer than 1 −
 /// kFlat.
 constexpr double kFlat = 0.1;
-/// Bonus of an end named by the user against ends that are flatter or more square to their walls. A higher
-/// value keeps named ends at the price of worse cells.
+/// Subtracted from the cost of a pair for each end that the user named. A higher value keeps named ends at
+/// the price of worse cells.
 constexpr double kNamed = 0.1;
-/// Cost of a cut that is a wall of both adjacent pieces, but touches their ends along different edges (see
-/// `unlike()`). It exceeds the usual costs of ends, so that matching cuts come first.
+/// Cost of each cut face that `unlike()` counts. It exceeds the costs of most ends, so that cuts whose rows
+/// of quads match come first.
 constexpr double kUnlikeCut = 10;
 
 using FaceSet = std::uint64_t;
@@ -52,7 +57,8 @@ void for_each(FaceSet set, const Do& use)
     for (; set != 0; set &= set - 1) use(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-/// Pairs of faces that touch the same face along two successive edges in one line.
+/// Pairs of faces that touch the same face along successive edges. The edges continue each other without a
+/// corner.
 using Beside = std::vector<std::pair<FaceId, FaceId>>;
 
 Beside faces_in_line(const Model& model, FaceId face)
@@ -151,7 +157,8 @@ public:
         return found;
     }
 
-    /// Whether each wall runs from end to end, so that columns can follow the edge between two walls.
+    /// Whether two sets of faces can be the ends: each wall runs from end to end (`runs_between()`), so that
+    /// columns of nodes can follow the edges between walls.
     [[nodiscard]] bool are_ends(FaceSet source, FaceSet target) const
     {
         const FaceSet all = one(faces_.size()) - 1;
@@ -167,7 +174,7 @@ public:
         return fits && rims_of(source) == rims_of(target) && rims_of(source) == parts_of(walls);
     }
 
-    /// Cost of two ends: 0 if they are flat, alike and square to their walls.
+    /// Cost of two ends: 0 if they are flat, of equal area and perpendicular to their walls.
     [[nodiscard]] double cost(FaceSet source, FaceSet target) const
     {
         return cost_of_end(source) + cost_of_end(target) +
@@ -199,14 +206,14 @@ private:
     };
     struct OneFace {
         std::vector<std::vector<Side>> loops;
-        FaceSet beside = 0, touched = 0; ///< `beside`: faces that share an edge with it; `touched`: faces
-                                         ///< that share a vertex with it
+        FaceSet beside = 0, touched = 0; ///< `beside`: faces that share an edge with this face; `touched`:
+                                         ///< faces that share a vertex with it
         Vec3 normal = Vec3::Zero();      ///< mean normal: shorter than 1 if the face bends
         double area = 0;
     };
 
-    /// Whether a face is a ring from end to end, or has four sides: one at the source, one at the target, and
-    /// the other two at walls (at two walls, or both at the same wall).
+    /// Whether a face is a ring from end to end, or has four sides: one at the source, the opposite one at
+    /// the target, and two at other walls (or both at the same wall).
     static bool runs_between(const OneFace& face, FaceSet source, FaceSet target)
     {
         constexpr int kSource = -1, kTarget = -2;
@@ -276,7 +283,7 @@ struct Ends {
     FaceSet source = 0, target = 0; ///< empty: no ends are known
     double cost = 0;
     bool as_named = false;
-    /// For each void face that is a wall, by name: its edges at the ends, by origin and tag.
+    /// For each cut face that is a wall, by name: the edges where it touches the ends, by origin and tag.
     std::map<std::string, std::set<std::pair<Origin, int>>> wall{};
 };
 
@@ -291,7 +298,7 @@ std::size_t unlike(const Ends& a, const Ends& b)
 }
 
 /// Pairs of ends between which a piece can be swept. The current pair comes first if it is valid. If there is
-/// no pair, the list holds one entry with empty ends.
+/// no pair, or if the piece is not searched, the list holds one entry with empty ends.
 std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
 {
     const Model& model = piece.model;

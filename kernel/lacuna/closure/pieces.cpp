@@ -24,8 +24,8 @@ using namespace topology;
 
 namespace {
 
-/// A cut face is an end of its pieces if the cosine between its normal and the source's exceeds this (26°);
-/// otherwise it is a wall.
+/// In a piece that has both ends, a cut face becomes part of an end if the cosine of the angle between the
+/// normals of the cut and of the source exceeds this (26°).
 constexpr double kAcross = 0.9;
 
 /// A piece, as faces of the common model.
@@ -118,7 +118,7 @@ private:
         }
     }
 
-    /// Number of pieces in front of a part, along the longest chain of pieces.
+    /// Level of a part: the number of pieces in front of it, along the longest chain of pieces.
     [[nodiscard]] int steps_below(const Part& part) const
     {
         int steps = 0;
@@ -204,8 +204,8 @@ private:
         return parted_.plane && lies_in_plane(model_, face, *parted_.plane);
     }
 
-    /// The end that a flat cut across the sweep belongs to, in a piece with both ends: the one with the same
-    /// normal. Null if the cut is not across the sweep.
+    /// The end that a flat cut belongs to in a piece with both ends: the end with about the same outward
+    /// normal. Null if the cut is not perpendicular to the sweep (`kAcross`).
     [[nodiscard]] std::vector<FaceId>* faced_as(const std::vector<FaceId>& cut, const Part& part,
                                                 Roles& roles) const
     {
@@ -217,14 +217,15 @@ private:
         return along < -kAcross ? &roles.target : nullptr;
     }
 
-    /// Whether a cut touches coplanar faces of an end.
+    /// Whether a cut touches faces of an end that lie in the plane of the cut.
     [[nodiscard]] bool goes_on(const std::vector<FaceId>& cut, const std::vector<FaceId>& end) const
     {
         return std::ranges::any_of(end,
                                    [&](FaceId face) { return lies_in_cut(face) && touches(cut, {face}); });
     }
 
-    /// A cut with the walls in its plane that continue it, such as a shoulder. All of them get the same role.
+    /// A cut together with the walls in its plane that are connected to it, such as a shoulder. All of them
+    /// get the same role.
     [[nodiscard]] std::vector<FaceId> with_coplanar(std::vector<FaceId> cut,
                                                     const std::vector<FaceId>& walls) const
     {
@@ -241,7 +242,7 @@ private:
         return roles;
     }
 
-    /// Make faces that were all named as walls an end, if their roles follow from the geometry.
+    /// Choose an end among the walls, if exactly one end can be found among them.
     void take_end(Roles& roles) const
     {
         for (const RoleCandidate& candidate : role_candidates(model_, roles.walls, {}, context_)) {

@@ -30,14 +30,14 @@ namespace {
 /// Largest number of candidates that are sealed, the likeliest first. Sealing them takes some tenths of a
 /// second for 10,000 facets.
 constexpr std::size_t kMostSealed = 24;
-/// Number of candidates checked if none of the likeliest seals. A lower number may find no void; a higher one
-/// costs time in proportion.
+/// Number of candidates checked if none of the likeliest can be sealed. With a lower number, voids may be
+/// missed; the time grows in proportion to this number.
 constexpr std::size_t kMostTried = 50;
-/// Cost of a flat filling in which a loop is split between faces or a face has several loops
-/// (`!FlatFilling::each_alone`). It equals the cost of missing ends in `topology::role_candidates()`.
+/// Added to the cost of the ends for a flat filling in which a loop is split between faces or a face has
+/// several loops. It equals the cost of missing ends in `topology::role_candidates()`.
 constexpr double kFilled = 0.1;
 
-/// Whether a void edge is further from its chord than a half circle.
+/// Whether a void edge is further from its chord than a half circle over the chord would be.
 bool detours(const Void& v)
 {
     const Model& model = v.sealed.volume.model;
@@ -57,17 +57,17 @@ double void_area(const Model& model, const Closure& closure)
     return area;
 }
 
-/// Drop the voids whose new faces have more area than one flat face in each free loop, if such flat faces
-/// close the volume. The larger faces are bent, or join two loops. Flat faces are likelier, even if the
-/// resulting volume cannot be swept.
+/// If one flat face in each free loop closes the volume, drop the voids whose void faces have a larger area
+/// than these flat faces: they are bent or join two loops. Flat faces are likelier, even if the resulting
+/// volume cannot be swept.
 /// @return  whether a void was dropped
 bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& filled,
                  const RunContext& context)
 {
     if (!filled || !filled->each_alone || found.empty()) return false;
     const Model& model = filled->volume.model;
-    // Flat faces close each connected part by itself, so this applies to a single part only. A flat face in
-    // the plane of its neighbour encloses nothing and is not preferred.
+    // Only for a single connected part, because flat faces would close each part separately. Not if a flat
+    // face would lie in the plane of an adjacent face, because it would enclose nothing.
     std::vector<FaceId> given = all_faces(model);
     std::erase_if(given, [&](FaceId face) { return model[face].origin != Origin::given; });
     if (connected_parts(model, given).size() != 1) return false;
@@ -81,8 +81,8 @@ bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& fil
            }) > 0;
 }
 
-/// The void closed by flat faces; empty if each free loop is planar and gets a face of its own
-/// (`each_alone`).
+/// The void closed by flat faces. Empty if each free loop is planar and gets a face of its own
+/// (`each_alone`), or if the void has no sweep direction.
 /// @param told  whether a void without ambiguous bends is known; a channel is then not tried
 std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vector<FaceId>& faces, bool told,
                               const RunContext& context)
@@ -103,8 +103,8 @@ std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vect
     return found;
 }
 
-/// A sealed void as a reading without ends. @return empty if it encloses no volume, as when the rim of a flat
-/// face is filled with a second flat face.
+/// A sealed void as a reading without ends. Empty if it encloses no volume, for example because the rim of a
+/// flat face is filled with a second flat face.
 std::optional<Reading> without_ends(FlatFilling filled, const RunContext& context)
 {
     Reading reading;
@@ -118,8 +118,8 @@ std::optional<Reading> without_ends(FlatFilling filled, const RunContext& contex
     return reading;
 }
 
-/// The reading in which the rims determine all missing faces. Its ends are found on the sealed skin, as for a
-/// volume without missing faces.
+/// The reading in which each missing face has the shape that its rim determines (`fill_all_loops()`). Its
+/// ends are found on the sealed skin, as for a volume without missing faces.
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
@@ -142,7 +142,8 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     reading->roles = whole.front().roles;
     reading->others = whole.front().others;
     set_ends(reading->volume, reading->roles.roles);
-    Roles& roles = reading->roles.roles; // first as faces of `skin`, then as faces of the model
+    Roles& roles = reading->roles.roles; // they name faces of `skin` here; below they are changed to faces of
+                                         // the model
     for (std::vector<FaceId>* list : {&roles.source, &roles.target, &roles.walls}) {
         std::erase_if(*list, [&](FaceId face) { return face.index() >= faces.size(); });
         for (FaceId& face : *list) face = faces[face.index()];
@@ -170,8 +171,8 @@ bool assumes_straight_faces(const Closure& closure)
     });
 }
 
-/// If a reading is ambiguous, or has a void face whose rim does not determine its shape, replace it by the
-/// reading of `read_filled()`, if that reading is unambiguous.
+/// If a reading is ambiguous, or has a void face whose rim does not determine its shape, replace the reading
+/// by that of `read_filled()`, provided that the latter is unambiguous.
 void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& reading,
                  const RunContext& context)
 {
@@ -183,7 +184,7 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& 
     if (reading.holed.valid() || (!untold && !reading.guess)) return;
     auto told = read_filled(model, faces, context);
     const bool is_sure = told && !told->guess && assumes_straight_faces(*told->closure);
-    // A reading without `guess` is a single body; a filling in several parts must not replace it.
+    // A reading without `guess` is one connected body. A filling with several parts must not replace it.
     if (is_sure &&
         (reading.guess || connected_parts(told->volume.model, all_faces(told->volume.model)).size() == 1))
         reading = std::move(*told);

@@ -19,28 +19,29 @@ struct SealedVolume : Closed {
     matching::Match match;
 };
 
-/// A sealed void and its other sweep directions, best first; the direction that its reading uses is not among
-/// them. For a hollow whose reading splits the bottom from the walls, `ways` is empty and the faces of
-/// `volume` are not split.
+/// A sealed void and its other sweep directions, best first; the direction that the reading of the void uses
+/// is not among them. A hollow whose bottom is split from its walls has no other direction: `ways` is empty,
+/// and the faces of `volume` are not split.
 struct OtherSweeps : Closed {
-    std::vector<topology::RoleCandidate> ways; ///< role candidates; they name faces of `volume`
+    std::vector<topology::RoleCandidate> ways; ///< the other directions; the roles name faces of `volume`
 };
 
-/// A void that some faces enclose, ready to be swept in its best direction.
+/// A void that some faces enclose, with the roles for a sweep in its best direction.
 struct Reading {
-    topology::RoleCandidate roles; ///< name faces of the model
-    topology::OpenVolume volume;   ///< with those roles
+    topology::RoleCandidate roles; ///< the roles name faces of the model
+    topology::OpenVolume volume;   ///< the faces with these roles; open or sealed
     topology::Classification classification;
-    /// Set if an end is a void face; `volume` is then sealed.
+    /// Set if `volume` is sealed, for example because an end is a void face.
     std::optional<Closure> closure;
-    /// Set if `volume` is open: its sealed state, so that it need not be closed again.
+    /// Set if `volume` is open and was sealed with these roles: the sealed volume, so that it need not be
+    /// closed again.
     std::optional<SealedVolume> sealed;
     double enclosed = 0;          ///< [model length³]
     std::optional<Message> guess; ///< the error about an ambiguous shape; empty if unambiguous
-    /// A given end with holes without walls that may extend to a missing end; invalid if there is none. An
-    /// open volume with this end as source must be closed with `CloseOptions::holes`.
+    /// A given end with holes that have no walls and may extend to a missing end; invalid if there is none.
+    /// An open volume with this end as source must be closed with `CloseOptions::holes` set.
     FaceId holed;
-    std::size_t ways = 1; ///< number of candidates for roles that enclose this volume
+    std::size_t ways = 1; ///< number of role candidates that enclose this volume
     /// Null if there is no other sweep direction, or if the user gave the ends.
     std::shared_ptr<const OtherSweeps> others;
     /// Why no ends were found. If set, `closure` is set too, and all faces of `volume` are walls.
@@ -53,44 +54,47 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// The voids that some faces of `model` may enclose when no roles are given, likeliest first. Voids that are
 /// clearly less likely than the first are left out.
 ///
-/// Each of topology::role_candidates() is sealed; those that do not seal are dropped. Two candidates enclose
-/// the same void if their volumes agree and their void faces are close together, compared with their size.
-/// Each void is then analysed again as a closed skin and swept in its best direction: of the candidates about
-/// as likely as the likeliest, the one with the fewest expected irregular nodes, then the one with the most
-/// even cells. The volume stays open if a candidate of the given faces has the same roles. The next three
-/// directions are kept for when the first cannot be meshed.
+/// Each of topology::role_candidates() is sealed; candidates that cannot be sealed are dropped. Two
+/// candidates enclose the same void if their volumes are equal within a tolerance and the distance of their
+/// void faces is small compared with the size of the void. The sealed skin of each void is then searched for
+/// its best sweep direction. Only directions about as likely as the likeliest count. The best one has the
+/// fewest expected irregular nodes; among equals, a direction with open ends is preferred to one between
+/// given ends, and this one to a direction between void faces. The volume stays open if a candidate of the
+/// given faces has the same ends. The next three directions are kept, for the case that the best one cannot
+/// be meshed.
 ///
-/// A hollow without such a candidate, because its bottom blends smoothly into its walls (a hemisphere, a bore
-/// with a round end), is split across the blend; its bottom is the source.
+/// Some hollows have no candidate, because their bottom blends smoothly into their walls, such as a
+/// hemisphere or a bore with a round end. Such a hollow is split across the blend; its bottom is the source.
 ///
 /// For a tube with a flat annular floor at one of its two ends, such as a counterbore's wall and ledge, the
 /// source is that floor together with the mouth of the narrower bore.
 ///
-/// If flat faces close the free loops, but not with one face for each loop (a face has a hole, or a loop lies
-/// in two planes), that closing is a further void. A channel that lacks its ends and one wall is closed only
-/// if no unambiguous void was found: its ends are the planar parts of its free loop, which must be congruent.
+/// Flat faces may close the free loops without being one face for each loop: a face has a hole, or a loop
+/// lies in two planes. The volume that they enclose is a further void. A channel that lacks its ends and one
+/// wall is closed only if no unambiguous void was found. Its ends are the planar parts of its free loop,
+/// which must be congruent.
 ///
-/// A void with an ambiguous bent face is dropped if there is one with flat faces; if it is the only void, it
+/// A void with an ambiguous bent face is dropped if another void has flat faces. If it is the only void, it
 /// is kept, and `Reading::guess` describes the ambiguity.
 /// @return  empty if no candidate is valid.
 /// @throw InvalidInput  the faces cannot be oriented.
 /// @throw Cancelled
-/// @note  O(facets log facets) for each sealed candidate, at most 24. Candidates that only fill flat free
-///        loops enclose the same volume, so only one of them is sealed.
+/// @note  O(facets log facets) for each sealed candidate, at most 24. All candidates that only fill flat free
+///        loops enclose the same volume; only one of them is sealed.
 std::vector<Reading> find_readings(const topology::Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context = {});
 
 /// The only void of some faces, or the one selected by number.
-/// @param number  from 1, as in the error message; 0: there must be exactly one void, with an unambiguous
-///         shape.
-/// @return  the void. A void without ends to sweep between, whose rims determine its missing faces, has
-///         `no_roles`. If `number` is 0 and only holes without walls make the choice ambiguous, the result is
-///         a class IV volume whose source is the face with these holes; close() then needs
-///         `CloseOptions::holes`.
-/// @throw InvalidInput "topology.no_roles"  no ends were found; instead "topology.sphere", "topology.cone" or
-///         "topology.crossing_bores" for these shapes. "topology.roles_ambiguous"  several voids; lists the
-///         enclosed volumes. "topology.shape_open"  a missing face of ambiguous shape; names the faces next
-///         to it. "topology.no_such_reading"  a wrong number.
+/// @param number  from 1, as in the error message; 0: requires exactly one void, with an unambiguous shape.
+/// @return  the void. If no ends were found but the rims determine the missing faces, the void is returned
+///         with `Reading::no_roles` set, and all its faces are walls. If `number` is 0 and several voids
+///         differ only in whether holes without walls are covered or extended, a class IV volume is returned
+///         whose source is the face with these holes; close() then needs `CloseOptions::holes`.
+/// @throw InvalidInput "topology.no_roles"  no ends were found, and without ends the missing faces cannot be
+///         closed; instead "topology.sphere", "topology.cone" or "topology.crossing_bores" for these shapes.
+///         "topology.roles_ambiguous"  several voids; lists the enclosed volumes. "topology.shape_open"  the
+///         shape of a missing face is ambiguous; names the faces next to the missing one.
+///         "topology.no_such_reading"  a wrong number.
 /// @throw Cancelled
 Reading find_reading(const topology::Model& model, const std::vector<FaceId>& faces, int number = 0,
                      const RunContext& context = {});

@@ -29,17 +29,17 @@ using Powers = Eigen::Vector<double, 10>;
 /// Tolerance for points on a quadric, as a share of the rim's own deviation from its plane. Mesh points on a
 /// quadric are off by rounding only; a higher value finds quadrics that the rim merely approximates.
 constexpr double kOnQuadric = 1e-4;
-/// Number of points of the rim beyond nine. Nine points always lie on a quadric; the others show that the rim
-/// really does. A higher number would exclude rims of few points.
+/// Least number of points of the rim beyond nine. Nine points always lie on a quadric; further points show
+/// that the rim does. A higher number would exclude rims of few points.
 constexpr Eigen::Index kSpare = 4;
-/// Largest relative deviation (of principal curvatures or singular values) at which a quadric counts as a
-/// ball, a round cone, a cylinder or a pair of planes. It may be large, because the quadric passes through
-/// the rim anyway.
+/// Largest deviation (`off_ball()` and so on) at which a quadric counts as a ball, a circular cylinder or
+/// cone, another cylinder, or a pair of planes. It may be large, because the quadric passes through the rim
+/// in any case.
 constexpr double kSpecial = 0.01;
-/// A quadric stands up at a point of the rim if the cosine between its gradient and the normal of the rim's
-/// plane is below `kStandsUp`, like the walls that end there. It may do so along a share `kStanding` of the
-/// rim: where a tube ends on a shaft of the same diameter, the shaft stands up at two points of the rim. A
-/// higher share would accept quadrics that continue the walls.
+/// A quadric is perpendicular to the rim's plane at a point of the rim if the cosine of the angle between the
+/// quadric's gradient and the plane's normal is below `kStandsUp`. There it continues a wall and cannot be
+/// the missing end. It may be perpendicular on at most a share `kStanding` of the points: a shaft on which a
+/// tube of the same diameter ends is perpendicular at two points of the tube's rim.
 constexpr double kStandsUp = 0.05, kStanding = 0.1;
 
 Powers powers_at(const Vec3& p)
@@ -83,8 +83,8 @@ std::optional<EvenFrame> even_frame(std::span<const Vec3> points)
                      spread.axis * stretches.asDiagonal() * spread.axis.transpose()};
 }
 
-/// A basis of the forms that vanish on some points, in the units of their frame. Empty if there are too few
-/// points to decide, or more than two independent forms.
+/// A basis of the quadratic forms that vanish at some points, for coordinates (p − frame.centre) /
+/// frame.unit. Empty if there are too few points to decide, or more than two independent forms.
 std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const EvenFrame& frame)
 {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(10, 10);
@@ -109,7 +109,7 @@ std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const E
 
 // --- deviation of a form from a special one --------------------------------------------------------
 
-/// Principal curvatures of a form, ascending.
+/// Eigenvalues of the quadratic part of a form, ascending.
 Vec3 bends_of(const Eigen::Matrix4d& form)
 {
     return geometry::symmetric_eigenvalues(form.topLeftCorner<3, 3>());
@@ -152,7 +152,7 @@ double off_cylinder(const Eigen::Matrix4d& form)
     return std::sqrt(std::max(squares(0), 0.0) / squares(2));
 }
 
-/// The forms cos t · a + sin t · b at which the deviation has a minimum of at most `kSpecial`.
+/// The forms cos t · a + sin t · b at which `off` has a minimum of at most `kSpecial`.
 std::vector<Eigen::Matrix4d> special_forms(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b,
                                            const std::function<double(const Eigen::Matrix4d&)>& off)
 {
@@ -209,7 +209,8 @@ std::vector<Vec3> rim_places(const Model& model, const std::vector<Loop>& loops,
     return places;
 }
 
-/// The sheet of a quadric that contains the whole rim; empty if there is none.
+/// The sheet of a quadric that contains the whole rim; empty if there is none, or if the quadric is
+/// perpendicular to the plane at too many points (`kStanding`).
 std::optional<QuadricSheet> sheet_through(std::span<const Vec3> rim, const Quadric& quadric,
                                           const geometry::Plane& plane)
 {
@@ -250,8 +251,8 @@ RimShapes shapes_through(std::span<const Vec3> rim, const geometry::Plane& plane
     return result;
 }
 
-/// Whether a given face at the edges of some loops lies on a quadric. If the quadric is a pair of planes, a
-/// missing face beside the given face cannot lie on it.
+/// Whether a given face at the edges of some loops lies on a quadric. If the quadric is a pair of planes, the
+/// missing face is not one of them: it would continue the given face.
 bool holds_given_face(const Model& model, const std::vector<Loop>& loops, const Quadric& quadric)
 {
     std::set<EdgeId> rim;

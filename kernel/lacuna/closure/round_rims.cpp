@@ -26,13 +26,13 @@ using namespace topology;
 
 namespace {
 
-/// Cosine between a facet's normal and the end's outward direction where a round is inclined by 45°.
+/// Cosine of 45°, the inclination at which rounds are divided.
 constexpr double kHalfway = std::numbers::sqrt2 / 2;
 
-/// Inclination and height of a facet relative to an end.
+/// Inclination of a facet to an end, and height of the facet along a direction `way`.
 struct Slope {
     double cosine = 0; ///< 1 where the facet is parallel to the end, 0 where it is normal to the end
-    double height = 0; ///< height of its centre in the direction from the end to the rounds [model length]
+    double height = 0; ///< height of its centre along `way` [model length]
 };
 
 Slope slope_of(const Model& model, const Triangle& t, const Vec3& out, const Vec3& way)
@@ -69,8 +69,8 @@ public:
 private:
     bool divide(const std::vector<FaceId>& rounds)
     {
-        // Rounds of a product in a box lie in front of the end, in the direction of `out_`. Rounds of a body
-        // lie behind its end.
+        // `way` points from the end to the rounds. Rounds of a product in a box lie on the side of the end to
+        // which `out_` points; rounds of a body lie on the other side.
         const Vec3 from_end = centroid_of(volume_.model, rounds) - centroid_of(volume_.model, part_);
         const Vec3 way = from_end.dot(out_) < -volume_.model.tolerance ? Vec3(-out_) : out_;
         const std::optional<double> height = halfway_height(rounds, way);
@@ -122,8 +122,8 @@ private:
         return sets;
     }
 
-    /// Whether a face is flatter than 45° in places and steeper in others, is not part of a face that was
-    /// divided before, and has no given quads.
+    /// Whether a face is inclined to the end by less than 45° in places and by more in others. Faces with
+    /// given quads, and parts of faces that were divided before, do not count.
     [[nodiscard]] bool is_round(FaceId face) const
     {
         const Face& own = volume_.model[face];
@@ -140,9 +140,9 @@ private:
                std::ranges::count_if(volume_.model.faces, is_part) == 1;
     }
 
-    /// The height that best separates the facets of the rounds: nearer to the end, facets should be inclined
-    /// to it by less than 45°, further away by more. Empty if every height leaves as many exceptions as not
-    /// dividing.
+    /// The height that best separates flat facets from steep ones: below it, facets should be inclined to the
+    /// end by less than 45°, above it by more. Facets for which this does not hold are exceptions. Empty if
+    /// no height has fewer exceptions than a division below all facets.
     [[nodiscard]] std::optional<double> halfway_height(const std::vector<FaceId>& rounds,
                                                        const Vec3& way) const
     {
@@ -172,7 +172,7 @@ private:
     Vec3 out_; ///< away from the opposite end
 };
 
-/// Smooth edges between walls that leave the same vertex of an end's rim.
+/// Smooth edges between walls, where two or more of them start at the same vertex of an end's rim.
 std::vector<EdgeId> smooth_fans(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
@@ -210,8 +210,8 @@ bool may_join(const Face& a, const Face& b)
            a.regions == b.regions && a.origin == b.origin;
 }
 
-/// Join the walls on both sides of smooth fans, and drop the edges between them. At most one column starts at
-/// a vertex of the rim, so the mesh could follow only one of the edges, and at a slant.
+/// Join the walls on both sides of the edges that `smooth_fans()` finds, and drop these edges. Only one
+/// column of nodes starts at a vertex of the rim, so the mesh could not follow all these edges.
 void join_rounds(OpenVolume& volume, const RunContext& context)
 {
     const std::vector<EdgeId> fans = smooth_fans(volume, context);

@@ -22,11 +22,12 @@ using namespace topology;
 
 namespace {
 
-/// Two skins coincide if their distance is below this share of the cube root of their volume. The value is
-/// above the distance that different facets of one void make, and below that of different voids.
+/// The void faces of two volumes coincide if their distance is below this share of the cube root of the
+/// volume. Two triangulations of the same void face are closer to each other; faces of different voids are
+/// further apart.
 constexpr double kSameSkin = 0.02;
-/// Cost of void faces bent by a half turn, added to the cost of the ends: of two closings, the one with flat
-/// faces is likelier. A higher value drops more closings by bent faces.
+/// Added to the cost of the ends if all void faces are bent by a half turn. A closing with flat faces is
+/// likelier than one with bent faces. A higher value drops more closings with bent faces.
 constexpr double kBentVoid = 0.5;
 
 /// Whether each free loop is filled by one face of its own, so that no void edge is needed and no face has
@@ -37,7 +38,7 @@ bool fills_each_loop(const OpenVolume& open, std::size_t loops)
     switch (found.value) {
     case VolumeClass::closed:
         return true;
-    case VolumeClass::III: // every vertex of both ends is on a wall, which reaches the other end
+    case VolumeClass::III: // every vertex of both ends is on a wall that reaches the other end
         return found.wall_free_source.empty() && found.wall_free_target.empty();
     case VolumeClass::IV:
         return loops == 1;
@@ -73,7 +74,7 @@ bool enclose_the_same(const Sealed& a, const Sealed& b)
     return lies_on(a, void_facets(b), near) && lies_on(b, void_facets(a), near);
 }
 
-/// Whether a candidate only fills planar free loops; all such candidates enclose the same volume.
+/// Whether sealing a candidate only fills planar free loops. All such candidates enclose the same volume.
 bool fills_flat_loops(const Model& model, const Roles& roles, const RunContext& context)
 {
     const auto fills = unless_refused([&] {
@@ -93,14 +94,15 @@ double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
     for (const FaceId face : sealed.closure.void_faces) {
         const double area = face_area(model, face);
         // As for ends, a bent face costs four times the difference between its area and its projected area,
-        // but at most its area: a bend by 90° costs 0.4 times as much as a half turn.
+        // but at most its area. A bend by 90° costs 0.4 times as much as a half turn.
         bent += std::min(area, 4 * (area - face_area_vector(model, face).norm()));
         whole += area;
     }
     return candidate.cost + (whole > 0 ? kBentVoid * bent / whole : 0);
 }
 
-/// Whether a void is closed by nearly flat faces between ends, or by congruent ends.
+/// Whether a void was sealed with a role candidate and its void faces are nearly flat, or is a channel that
+/// was sealed by congruent ends.
 bool is_settled(const Void& v)
 {
     if (v.untold || !v.filled.empty()) return v.channel;
@@ -119,8 +121,8 @@ void keep_likely(std::vector<Void>& found)
     });
 }
 
-/// Add a candidate to the void that it encloses. If only some candidates of a void need an ambiguous bend,
-/// these are listed in `Void::bent`, because closing with their roles would bend the face.
+/// Add a candidate to the void that it encloses. If some candidates of a void need an ambiguous bend and
+/// others do not, the former are listed in `Void::bent`: closing with their roles would bend a void face.
 void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed sealed, bool fills_flat)
 {
     Void now;
@@ -198,7 +200,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     };
     std::vector<MovedEnd> moved = move_ends(model, faces, known, context);
     std::vector<Void> ends;
-    bool told = true; // no rim without walls was extended
+    bool told = true; // whether no rim without walls was extended
     for (MovedEnd& one : moved) {
         Void now;
         now.sealed = {{Closed(std::move(one)), {}}, one.enclosed};
@@ -215,7 +217,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     for (Void& v : found) {
         const auto end = std::ranges::find_if(
             ends, [&](const Void& e) { return enclose_the_same(v.sealed, e.sealed); });
-        // A face with an ambiguous bend is replaced by the moved end.
+        // A void with an ambiguous bend is replaced by the one with the moved end.
         const Sealed& own = v.sealed;
         const bool bends = v.untold || !membranes(own.volume.model, own.closure.void_faces).empty();
         if (end != ends.end()) same.push_back(bends ? *end : v);

@@ -129,7 +129,8 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
             if (first && *first <= pair) return true;
             const Triangle& mine = made.triangles[index(a)];
             const Triangle& theirs = others.triangles[index(b)];
-            // Facets that share a side can only fold onto each other, and the enclosed volume reveals that.
+            // Facets that share a side can only fold onto each other; the check of the enclosed volume finds
+            // folds.
             const int shared = shared_points(mine, theirs);
             if (shared == 0 && touch(corners(mine), corners(theirs), model.tolerance))
                 contacts.push_back({pair, {mine, theirs}});

@@ -52,7 +52,8 @@ std::size_t flat_run(const Model& model, const Rim& rim, std::size_t start)
     return uses;
 }
 
-/// Part of a loop: `count` uses from `first`, wrapping round at the end.
+/// A run: `count` consecutive uses of a loop from index `first`. It may continue past the end of the list at
+/// its start.
 struct Run {
     std::size_t first = 0, count = 0;
 };
@@ -64,8 +65,8 @@ std::vector<EdgeUse> uses_of(const Rim& rim, const Run& run)
     return uses;
 }
 
-/// Start of the run that follows the r-th run of a loop; it may exceed the number of uses. @pre the runs are
-/// ascending
+/// Index of the first use of the run after the r-th one. After the last run, the number of uses is added.
+/// @pre  the runs are ascending
 std::size_t next_start(const Rim& rim, std::span<const Run> runs, std::size_t r)
 {
     return r + 1 == runs.size() ? runs.front().first + rim.uses.size() : runs[r + 1].first;
@@ -104,15 +105,16 @@ std::vector<Loop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& 
     return parts;
 }
 
-/// The run to separate from a loop that lies in two planes.
-/// @param run  by use of the loop: the length of the flat run that starts there.
+/// One of the two flat runs of a loop that lies in two planes; empty for other loops.
+/// @param run  for each use of the loop: the number of consecutive uses from there that lie in one plane.
 std::optional<Run> half_run(const std::vector<std::size_t>& run)
 {
     const std::size_t uses = run.size();
     for (std::size_t i = 0; i < uses; ++i) {
         const std::size_t first = run[i], j = (i + first) % uses;
         if (first < 2 || first >= uses || uses - first < 2 || run[j] < uses - first) continue;
-        // If the two runs overlap, the loop could be split in several places, and none is preferred.
+        // If the two runs overlap, the loop could be split in several places, and no place is better than
+        // another.
         if (run[j] == uses - first) return Run{i, first};
     }
     return std::nullopt;
@@ -129,15 +131,15 @@ std::size_t turns(const std::vector<Vec3>& chain)
     return count;
 }
 
-/// Whether a run of a loop shows that a flat face is missing there; two straight edges alone do not, as they
-/// are always coplanar.
+/// Whether a flat run of a loop shows that a flat face is missing there. Two straight edges do not show it:
+/// they are always coplanar.
 bool tells_plane(const Model& model, const Rim& rim, const Run& run)
 {
     return turns(use_places(model, uses_of(rim, run))) >= 2;
 }
 
-/// Whether a side between two corners is bent and the sides before and after it are not parallel, as in a
-/// ring sector: the missing face opposite may then bend in the same way.
+/// Whether the uses contain a bent side between two sides that are not parallel, as in a ring sector. A
+/// missing face opposite may then be bent in the same way.
 bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
 {
     const auto way = [&](EdgeUse use) {
@@ -157,15 +159,15 @@ bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
     return false;
 }
 
-/// The ends of a groove: planar runs of a loop with no given face in their plane. Two straight edges are not
-/// an end, as they are always coplanar, and neither is the side of a ring sector (see `is_of_ring()`).
+/// The ends of a groove: planar runs of a loop with no given face in their plane. Two straight edges are no
+/// end, because they are always coplanar. The side of a ring sector is no end either (see `is_of_ring()`).
 std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vector<std::size_t>& run)
 {
     const std::size_t uses = rim.uses.size();
     std::vector<Run> ends;
     for (std::size_t i = 0; i < uses; ++i) {
         if (run[i] == 0 || run[i] == uses) continue;
-        if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer run
+        if (run[(i + uses - 1) % uses] > run[i]) continue; // the run is a part of a longer one
         const std::vector<EdgeUse> own = uses_of(rim, {i, run[i]});
         const std::vector<Vec3> points = use_places(model, own);
         if (turns(points) < 2 || is_of_ring(model, own)) continue;
@@ -178,8 +180,8 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
     return ends;
 }
 
-/// The direction of the straight edges that run along the mouth of a groove from end to end. Bent parts of
-/// the mouth are ignored.
+/// The common direction of the straight edges of a groove's mouth that run from end to end. Bent parts of the
+/// mouth are ignored.
 /// @return  empty if there are no such edges, or if they are not parallel.
 std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector<Run>& ends)
 {
@@ -188,7 +190,7 @@ std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector
         const std::vector<EdgeUse> own = uses_of(rim, between(rim, ends, r));
         if (own.empty()) continue;
         const std::vector<Vec3> chain = use_places(model, own);
-        if (turns(chain) > 0) continue; // across the mouth, at a given end
+        if (turns(chain) > 0) continue; // a bent part, such as the rim of a given end across the mouth
         const Vec3 along = (chain.back() - chain.front()).normalized();
         if (way && way->cross(along).norm() > kParallel) return std::nullopt;
         way = along;
@@ -196,8 +198,8 @@ std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector
     return way;
 }
 
-/// Whether all curved faces are parallel to `way`. In a bent groove they are not: there the long edges are
-/// planar and were taken for ends, and `way` comes from straight edges at the true ends.
+/// Whether all curved faces run in the direction `way`. In a bent groove they do not: its long edges are
+/// planar and were taken for ends, and `way` is the direction of straight edges at the true ends.
 bool all_go_along(const Model& model, const Vec3& way)
 {
     return std::ranges::all_of(all_faces(model), [&](FaceId face) {
@@ -228,8 +230,9 @@ bool are_alike(const Model& model, const Rim& rim, const Run& a, const Run& b)
     return true;
 }
 
-/// The ends of a channel: two congruent runs with edges of walls between them. Each run needs at least three
-/// edges: two edges may belong to a triangle or a rectangle, and the rim of a bent wall may be planar.
+/// The ends of a channel: two congruent runs with edges of walls between them. Each run must have at least
+/// three edges, because two edges do not determine the face (triangle or rectangle), and one planar edge may
+/// belong to a bent wall.
 std::vector<Run> channel_ends(const Model& model, const Rim& rim, std::vector<Run> ends)
 {
     std::erase_if(ends, [](const Run& run) { return run.count < 3; });
@@ -246,10 +249,10 @@ bool ends_straight_groove(const Model& model, const Rim& rim, const std::vector<
     return way && all_go_along(model, *way);
 }
 
-/// Separate the ends of a straight groove from its loop. Runs in the plane of its mouth are part of the
-/// mouth, not ends. The mouth is assumed to be flat if its given edges are two straight lines, which are
-/// parallel and thus always coplanar.
-/// @return  empty if it is no such groove; the model is then unchanged
+/// Separate the ends of a straight groove from its loop. Runs in the plane of the mouth are parts of the
+/// mouth, not ends. If the given edges of the mouth are only two parallel straight lines, they do not show
+/// that the mouth is flat; this is then an assumption.
+/// @return  empty if the loop is not that of a straight groove; the model is then unchanged
 std::optional<SplitLoop> part_groove(Model& model, const Rim& rim, std::vector<Run> ends)
 {
     if (!ends_straight_groove(model, rim, ends)) return std::nullopt;

@@ -36,15 +36,16 @@ using namespace topology;
 
 namespace {
 
-/// Limits of a step [degrees]. Either the skin turns at the end's rim towards the void by more than `kStep`;
-/// or it turns by less than `kStep`, and the walls lead away from the opposite end at more than `kLeadsAway`
-/// to the end's plane, as at a divided round, which has about 45°.
+/// An edge of an end's rim is at a step in two cases [degrees]: the skin turns towards the void by more than
+/// `kStep`; or it turns by less than `kStep` to either side, and the walls lead away from the opposite end at
+/// more than `kLeadsAway` to the end's plane. The second case is that of a divided round, where this angle is
+/// about 45°.
 constexpr double kStep = 45, kLeadsAway = 30;
 
-/// Each cut reduces the number of steps, so more cuts in a row than this mean an error in the cutter.
+/// Each cut reduces the number of steps. More cuts in a row than this mean an error in the cutter.
 constexpr int kRounds = 64;
 
-/// A rim of an end where the walls lead away from the opposite end.
+/// A rim of an end where all walls lead away from the opposite end.
 struct Hanging {
     std::size_t part = 0; ///< index of the part of the end
     Rim rim;
@@ -54,7 +55,7 @@ struct Hanging {
 struct Steps {
     std::vector<std::vector<FaceId>> parts; ///< connected parts of the end
     std::vector<Hanging> closed;            ///< rims at which all walls lead away from the opposite end
-    std::vector<FaceId> risers;             ///< walls at steps that end at other walls
+    std::vector<FaceId> risers;             ///< walls at steps whose rim also has other walls
 };
 
 /// Whether the walls at an edge lead away from the opposite end.
@@ -114,9 +115,9 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
 /// A rim projected onto the opposite end.
 struct Imprinted {
     std::size_t part = 0;      ///< index of the part of the end whose rim was projected
-    FaceId target;             ///< face of the opposite end that it lies on
-    std::vector<Index> points; ///< points of the model, the first not repeated
-    std::vector<Vec2> flat;    ///< the same, projected along the sweep
+    FaceId target;             ///< the face of the opposite end on which the projected rim lies
+    std::vector<Index> points; ///< points of the model; the first is not repeated at the end
+    std::vector<Vec2> flat;    ///< the same points, projected along the sweep
 };
 
 class StepCutter {
@@ -163,7 +164,8 @@ private:
         FaceId face;
         Vec2 uv = Vec2::Zero();
     };
-    /// Where the line from a point along the sweep first meets the opposite end, or one face of it (`only`).
+    /// The place where the line from a point along the sweep first meets the opposite end, or the face `only`
+    /// of that end.
     std::optional<Hit> above(const Vec3& p, FaceId only = {})
     {
         geometry::FacetTree::RayHit hit;
@@ -235,8 +237,8 @@ private:
             std::vector<Index> high;
             for (const Index p : low) high.push_back(lift(p));
             const VertexId from = use_from(builder_, use), to = use_to(builder_, use);
-            // A rim that is one closed edge gives a ring face with two loops; other rims give one face per
-            // side.
+            // From a rim that is one closed edge, a ring face with two loops is extruded; from any other rim,
+            // one face per edge.
             const bool closed = rim.uses.size() == 1;
             const EdgeId top = builder_.add_void_edge(vertex(from), vertex(to), high);
             if (!closed) {
@@ -263,8 +265,8 @@ private:
         for (Imprinted& image : images_)
             if (image.target == id) own.push_back(&image);
         if (own.empty()) return;
-        // All loops, the face's own first; each region is inside one loop and outside the loops directly
-        // within it.
+        // The loops of the face, then the projected rims. Each region lies inside one loop and outside the
+        // loops directly within this loop.
         struct Ring {
             std::vector<Index> points;
             std::vector<Vec2> flat;
@@ -292,7 +294,7 @@ private:
         const bool turned = area.dot(across_.normal) < 0;
         bool first = true;
         for (std::size_t outer = 0; outer < rings.size(); ++outer) {
-            // A hole of the face bounds no region.
+            // The inside of a hole of the face is no region.
             if (outer < given && parents[outer] != rings.size()) continue;
             Outline outline;
             outline.add_loop(rings[outer].flat, rings[outer].points);
@@ -357,8 +359,8 @@ private:
         return least - volume_.model.diagonal;
     }
 
-    /// Set the surface parameters of the facets' corners. Projected points have the parameters found by
-    /// projection; points of the old rim have those of the old facets.
+    /// Set the surface parameters of the facets' corners. Projected points get the parameters found by
+    /// projection; points of the face's loops keep those of the old facets.
     void set_uv(const Face& before, Face& face) const
     {
         std::map<Index, Vec2> known(uv_.begin(), uv_.end());
@@ -370,20 +372,22 @@ private:
     }
 
     const OpenVolume& volume_;
-    PartedVolume parted_; ///< holds the roles; its model is taken from `builder_` at the end
+    PartedVolume parted_; ///< holds the roles; its model is set from `builder_` at the end
     ModelBuilder builder_;
     Role stepped_, other_;
     const RunContext& context_;
     Steps steps_;            ///< steps of the stepped end
-    geometry::Plane across_; ///< its normal is the direction to the other end
+    geometry::Plane across_; ///< plane across the sweep; its normal is the direction to the other end
     std::vector<Imprinted> images_;
     /// Surface parameters of points projected onto the opposite end.
     std::map<Index, Vec2> uv_;
     std::optional<geometry::FacetTree> tree_;           ///< facets of the original opposite end
-    std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree: its face and index there
+    std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree: its face, and its index
+                                                        ///< among the face's triangles
 };
 
-/// Close a missing end opposite to steps by a face in the only open loop, flat or bent like that loop.
+/// Close a missing end opposite to steps by a face in the only open loop. The face is flat or bent like the
+/// loop.
 void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunContext& context)
 {
     const std::vector<Rim> open = free_loops(volume);
@@ -401,7 +405,8 @@ void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunC
     volume.model = with_loops(std::move(volume.model));
 }
 
-/// Cut a volume, and all resulting pieces that are crossed, by the planes of some of its faces in turn.
+/// Cut a volume by the planes of some of its faces in turn. Each plane cuts all pieces that it crosses near
+/// its face.
 std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector<FaceId>& faces,
                                      const RunContext& context)
 {
@@ -414,7 +419,8 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
                                        "rim is not closed",
                                        entity_of(volume.model, face))
                                    .remedy("cut the volume with cut{{ plane = … }}"));
-        const Eigen::AlignedBox3d reach = box_of(volume.model, face); // a face cuts only pieces that it meets
+        const Eigen::AlignedBox3d reach = box_of(volume.model, face); // the plane of a face cuts only pieces
+                                                                      // near this face
         const auto cut = [&](const OpenVolume& piece) {
             return cut_by_face(piece, volume.model, face, context);
         };
@@ -439,8 +445,8 @@ Vec3 sweep_way(const OpenVolume& volume)
     return way.stableNormalized();
 }
 
-/// Levels of pieces side by side: 0 for the longest along the sweep, otherwise the number of distinct greater
-/// lengths.
+/// Levels of pieces that lie side by side: the number of distinct lengths along the sweep that are greater
+/// than the length of the piece; 0 for the longest.
 std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Vec3& way)
 {
     std::vector<double> length;
@@ -470,8 +476,8 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
 }
 
 /// If the only open loop is flat, lies across the sweep and is bounded by walls, close it as part of an end.
-/// An example is the brim of a box round a floating board: without that face, the columns beside the board
-/// would have no end to reach.
+/// Example: the brim of a box around a floating board. Without this face, the columns beside the board would
+/// have no end.
 void close_brim(OpenVolume& volume, const RunContext& context)
 {
     const std::vector<Rim> open = free_loops(volume);
@@ -491,7 +497,7 @@ void close_brim(OpenVolume& volume, const RunContext& context)
 }
 
 /// Cover the holes without walls in the tops of steps, such as a bore in a boss that ends below the brim. If
-/// they were extended to the other end, they would become pins.
+/// the holes were extended to the other end, they would become pins in the void.
 void cover_step_holes(OpenVolume& volume, const RunContext& context)
 {
     std::set<FaceId> tops;
@@ -511,7 +517,7 @@ void cover_step_holes(OpenVolume& volume, const RunContext& context)
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round);
 
 /// Cut a volume by the planes of walls at steps. Then extrude void faces from the rims of the remaining
-/// steps, which have walls all round.
+/// steps, where all walls lead away from the opposite end.
 std::vector<StepPiece> cut_at_risers(const OpenVolume& volume, const std::vector<FaceId>& risers,
                                      const RunContext& context, int round)
 {
@@ -527,7 +533,8 @@ std::vector<StepPiece> cut_at_risers(const OpenVolume& volume, const std::vector
     return result;
 }
 
-/// Extrude void faces from closed rims, one end after the other, until no piece has such a rim.
+/// Extrude void faces from the rims in `Steps::closed`, one end after the other, until no piece has such a
+/// rim.
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round)
 {
     face_away(volume, context);
@@ -552,7 +559,8 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
     for (const Role end : {Role::source, Role::target}) {
         const auto& [parts, closed, risers] = steps[end == Role::source ? 0 : 1];
         if (parts.size() < 2) continue;
-        // A wall at a step may end in the plane of an earlier cut, so that walls no longer surround the step.
+        // A wall at a step may end in the plane of an earlier cut. Then the step's rim also has other walls,
+        // and the planes of its walls must cut.
         if (!risers.empty() && round < kRounds) return cut_at_risers(volume, risers, context, round + 1);
         throw NotSweepable(
             Message("closure.steps",
@@ -576,7 +584,8 @@ bool is_stepped(const OpenVolume& volume, const RunContext& context)
                                [](const Steps& steps) { return is_stepped(steps); });
 }
 
-/// Cut in the planes of all flat steps. Empty if a cut fails or a piece still has steps.
+/// Cut by the planes of all steps. Empty if a step is not flat, if a cut fails, or if a piece still has
+/// steps.
 std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<Steps, 2>& steps,
                                      const RunContext& context)
 {

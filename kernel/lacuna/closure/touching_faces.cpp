@@ -52,8 +52,8 @@ bool are_similar(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
     return true;
 }
 
-/// Whether a single bent given face, or parts of one cylinder or sphere, surround a loop: the loop is then a
-/// hole in them, which a face of the same shape would close without a trace.
+/// Whether a single bent given face, or parts of one cylinder or sphere, surround a loop. The loop is then a
+/// hole in these faces; a void face of the same shape would only continue them.
 bool is_hole_in_round_face(const Model& model, const Loop& loop)
 {
     std::set<FaceId> beside;
@@ -76,10 +76,10 @@ bool is_hole_in_round_face(const Model& model, const Loop& loop)
 
 // --- several faces ----------------------------------------------------------------------------------------
 
-/// A side of a missing face: an edge of the free loop, or one between missing faces.
+/// A side of a missing face: an edge of the free loop, or a void edge between two missing faces.
 struct FaceSide {
     std::vector<Vec3> points; ///< in walking order, both ends included
-    EdgeUse given;            ///< invalid for an edge that is to be made
+    EdgeUse given;            ///< the edge of the free loop; invalid for a void edge that is to be made
     VertexId from, to;        ///< invalid for the vertex where three missing faces meet
 };
 using FaceChain = std::vector<FaceSide>;
@@ -129,7 +129,7 @@ class TouchingFaces {
 public:
     TouchingFaces(const Model& model, const RunContext& context) : model_(model), context_(context) {}
 
-    /// The splits of a loop into two faces, of which one is flat.
+    /// The splits of a loop into two faces, of which at least one is flat.
     [[nodiscard]] std::vector<FaceSplit> in_two(const FaceChain& loop) const
     {
         std::vector<FaceSplit> found;
@@ -140,7 +140,7 @@ public:
                 const FaceChain flat = part_of(loop, i, j), rest = part_of(loop, j, i);
                 const bool flat_there = plane_of_run(flat).has_value();
                 const bool both = flat_there && plane_of_run(rest);
-                if (both && i > j) continue; // found with the two parts exchanged
+                if (both && i > j) continue; // the split is found a second time with the two parts exchanged
                 const bool told = flat_there && (count_turns(points_along(flat)) > 1 ||
                                                  (both && count_turns(points_along(rest)) > 1));
                 const FaceSide chord = across(rest);
@@ -193,14 +193,15 @@ public:
     }
 
 private:
-    /// A run of sides, and its plane if it has one.
+    /// A run: some consecutive sides of a loop, which bound one missing face. Its plane if it has one.
     struct Run {
         FaceChain sides;
         std::optional<geometry::Plane> plane;
     };
 
-    /// The plane of a run of sides, in which the face of the run lies. Empty if the run is straight or not
-    /// flat, if the face would cross itself, or if it would double the given faces along the run.
+    /// The plane of the missing face at a run. Empty in any of these cases: the run is straight or not flat;
+    /// the rim of the face would cross itself; all given faces along the run lie in the plane, so that the
+    /// face would double or only continue them.
     [[nodiscard]] std::optional<geometry::Plane> plane_of_run(const FaceChain& run) const
     {
         std::vector<Vec3> points = points_along(run);
@@ -261,8 +262,8 @@ private:
         return (points.back() - points[points.size() - 2]).stableNormalized();
     }
 
-    /// Whether a straight edge may separate faces: no straight edge joins its ends already, and it is not in
-    /// line with the sides at its ends.
+    /// Whether a straight void edge may separate faces: no straight edge joins its ends already, and the void
+    /// edge is not parallel to the sides at its ends.
     [[nodiscard]] bool fits(const FaceSide& chord, std::initializer_list<Vec3> sides) const
     {
         const Vec3 way = end_to_end(chord.points).stableNormalized();
@@ -291,8 +292,8 @@ private:
         return closure::tells_face(model, loop, context_);
     }
 
-    /// The edge from the end of a run to its start that has the shape of the run between its first and last
-    /// side, if these two sides are straight, parallel and equally long.
+    /// A void edge from the end of a run to its start: a shifted copy of the run without its first and last
+    /// side. Empty unless these two sides are straight, parallel and equally long.
     [[nodiscard]] static std::optional<FaceSide> image_of_opposite(const FaceChain& run)
     {
         if (run.size() < 3) return std::nullopt;
@@ -310,7 +311,8 @@ private:
         return turned(std::move(image));
     }
 
-    /// The split into three flat faces whose planes meet in a new vertex; empty if there is none.
+    /// The split into three flat faces whose planes meet in a new vertex; empty if the three runs permit
+    /// none.
     [[nodiscard]] std::optional<FaceSplit> round_vertex(const std::array<const Run*, 3>& runs) const
     {
         if (!std::ranges::all_of(runs, [](const Run* run) { return run->plane.has_value(); }))

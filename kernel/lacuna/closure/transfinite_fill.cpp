@@ -37,8 +37,8 @@ PatchSide patch_side(const Model& model, const std::vector<EdgeUse>& uses)
     return side;
 }
 
-/// Place the points of a side between source and target at the heights of the walls instead of by length,
-/// because void edges have points at even heights.
+/// For a side between source and target: set the shares of its points to their heights on the walls
+/// (`Follower::height()`). Other points are spaced evenly, because void edges have points at even heights.
 void by_height(PatchSide& side, const Follower& follower, bool rising)
 {
     const std::size_t n = side.chain.size();
@@ -59,8 +59,8 @@ void add_halves(geometry::Triangulation& grid, const Quad& q, std::size_t turn)
     grid.triangles.push_back({q[k], q[k + 2], q[(k + 3) % 4]});
 }
 
-/// Triangulate a rectangle with equal numbers of points on opposite sides by a grid between these points, so
-/// that facets are as fine at the corners as the sides.
+/// Triangulate a rectangle with equal numbers of points on opposite sides by a grid between these points.
+/// Facets are then as fine as the sides, also at the corners.
 geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const Outline& outline,
                                      double width, double height)
 {
@@ -87,24 +87,25 @@ geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const
     return grid;
 }
 
-/// Distance of a patch between four straight sides from two flat facets [model length].
+/// Largest distance of a patch between four straight sides from two flat facets over these sides [model
+/// length].
 double twist_of(const std::array<PatchSide, 4>& side)
 {
     const auto corner = [&](std::size_t i) { return side[i].points.front(); };
     return (corner(0) - corner(1) + corner(2) - corner(3)).norm() / 4;
 }
 
-/// Triangulate a rectangle whose patch is twisted or doubly curved: an inner grid at least as fine as the
-/// sides, and facets from it to the sides.
+/// Triangulate a rectangle whose patch is twisted or doubly curved: an inner grid, usually at least as fine
+/// as the sides, and facets between the grid and the sides.
 /// @param width, height  segments of the sides in each direction, which are also the rectangle's size.
 geometry::Triangulation grid_within(const Outline& outline, double width, double height,
                                     const RunContext& context)
 {
-    // Cells per direction: the facets' error on a twisted patch is then 1/256 of that of two facets. If the
-    // sides are finer, they are curved, and the grid is at least as fine.
+    // Least number of cells per direction. The error of the facets on a twisted patch is then 1/256 of that
+    // of two facets. Finer sides are curved; the grid is then as fine as the sides.
     constexpr Index kCells = 16;
-    // Upper bound of the number of cells. Sides as fine as those of scans would give far more than the shape
-    // of a void face needs; the grid is then coarser than its sides.
+    // Upper bound of the number of cells. Sides as fine as those of scans would give far more cells than the
+    // shape of a void face needs. The grid is then coarser than the sides.
     constexpr double kMostCells = 1e5;
     const double coarser = std::max(1.0, std::sqrt(width * height / kMostCells));
     const Index across = std::max(kCells, static_cast<Index>(width / coarser));
@@ -143,8 +144,8 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
         by_height(side[1], *follower, true);
         by_height(side[3], *follower, false);
     }
-    // Measure the rectangle in segments of its sides. Facets then are as long as the segments of the sides,
-    // whose length depends on curvature.
+    // The unit of the rectangle is one segment of a side. Facets then are about as long as the segments of
+    // the sides, whose length depends on curvature.
     const auto segments = [&](std::size_t i, std::size_t j) {
         return static_cast<double>(std::max(side[i].chain.size(), side[j].chain.size()) - 1);
     };

@@ -22,7 +22,7 @@ std::vector<std::vector<FaceId>> parts_of(const Model& model)
     return connected_parts(model, all_faces(model));
 }
 
-/// Whether facets face away from their centre.
+/// Whether faces are oriented away from the centroid of their facets.
 bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
 {
     const Vec3 centre = centroid_of(model, faces);
@@ -34,8 +34,8 @@ bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
     return sum >= 0;
 }
 
-/// Positive if the ends in a part face the opposite ends, negative if they face away. Opposite ends in other
-/// parts count; those of the same part only if there are no others.
+/// Positive if the ends in a part face the opposite ends, negative if they face away from them. An opposite
+/// end in the same part counts only if no other part has one.
 /// @return  sum over both ends: area times the cosine between the normal and the direction to the centre of
 ///          the opposite ends [model length²].
 double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part)
@@ -57,10 +57,10 @@ double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part)
     return before;
 }
 
-/// Whether a part's walls are in front of its ends, where the normals of the ends point (positive), or behind
-/// them (negative); 0 if some are in front and some behind, or if the part lacks an end. A wall that joins
-/// both ends is on the void's side of both. Only the riser of a stepped end is on the other side of the step
-/// above it.
+/// Positive if the walls of a part lie in front of its ends, on the side to which the ends' normals point;
+/// negative if they lie behind the ends. 0 if some lie in front and some behind, or if the part lacks an end.
+/// Walls that join both ends lie on the side of the void. The riser of a stepped end is an exception: it lies
+/// on the other side of the step above it.
 /// @param folds  `folds_across()` of each edge.
 /// @return  sum over the edges that an end and a wall share: length times the cosine of the angle between the
 ///          wall and the end's normal [model length].
@@ -86,9 +86,10 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
 }
 
 /// For each part, whether its facets face the void. The first applicable rule decides:
-/// 1. if the part is open and inside no other: its walls all stand on the same side of its two ends;
-/// 2. if it is open: its ends face, or face away from, the opposite ends;
-/// 3. the void is on the side of the facets' centre; for a part inside another, on the far side.
+/// 1. if the part is open and inside no other part: the void is on the side of the ends on which all its
+///    walls lie;
+/// 2. if the part is open: the void is on the side of its ends towards the opposite ends;
+/// 3. the void is on the side of the facets' centroid; for a part inside another part, on the other side.
 std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
                                     const std::vector<double>& folds, const RunContext& context)
 {

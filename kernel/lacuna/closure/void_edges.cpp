@@ -24,11 +24,11 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of segments of a void edge: a bend by 90° turns by less than 1.5° from one segment to the
-/// next.
+/// Largest number of segments of a void edge. With this number, a bend by 90° turns by less than 1.5° from
+/// one segment to the next.
 constexpr int kMostSegments = 64;
-/// Maximum turn between the tangents at both ends of a smooth curve: 3/4 of a circle [radian]. At a full
-/// circle the handles become infinite.
+/// Maximum turn between the tangents at both ends of a smooth curve: 3/4 of a circle [radian]. For a full
+/// circle, the control points would be infinitely far away.
 constexpr double kMostTurn = 1.5 * std::numbers::pi;
 
 // --- gaps ---------------------------------------------------------------------------------------------
@@ -45,7 +45,7 @@ std::set<VertexId> free_vertices(const OpenVolume& volume)
 
 // --- the course of one void edge ------------------------------------------------------------------------
 
-/// Spacing of the facet points on the edges at a vertex; its mean is length / segments.
+/// Total length and number of the facets' sides on the edges at a vertex.
 struct Spacing {
     double length = 0;
     std::size_t segments = 0;
@@ -53,7 +53,7 @@ struct Spacing {
     [[nodiscard]] double mean() const { return segments > 0 ? length / static_cast<double>(segments) : 0; }
 };
 
-/// Add an edge to the spacing of its two ends.
+/// Add an edge to the spacing at both of its ends.
 void add_edge(const Model& model, EdgeId id, std::vector<Spacing>& at)
 {
     const Edge& edge = model[id];
@@ -92,7 +92,7 @@ std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spa
     return inner_points(segments, [&](double f) -> Vec3 { return (1 - f) * from + f * to; });
 }
 
-/// Follow the walls between the heights of the gap's ends, shifted to meet the ends.
+/// Points that follow the walls' motion between the heights of the gap's ends, shifted to meet these ends.
 std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Follower& follower)
 {
     const auto at = [&](VertexId v) { return model.at(model[v].point); };
@@ -114,7 +114,7 @@ std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Foll
     });
 }
 
-/// Normal of an end at a vertex, weighted by the facets' angles; outward or inward like the faces.
+/// Mean normal of an end's faces at a vertex, weighted by the facets' angles.
 Vec3 normal_at(const OpenVolume& volume, Role end, VertexId vertex)
 {
     const Model& model = volume.model;
@@ -139,7 +139,7 @@ struct Tangents {
     Vec3 leave, arrive;
 };
 
-/// @param side  1 or -1: on which side of the ends' faces the void is.
+/// @param side  1 or -1: side of the ends' faces on which the void lies, see `side_of_void()`.
 Tangents tangents_of(const OpenVolume& volume, const Gap& gap, const Follower* walls, double side)
 {
     const Model& model = volume.model;

@@ -47,8 +47,8 @@ NewellOutline newell_outline(const Model& model, const std::vector<Loop>& loops)
     return result;
 }
 
-/// Heights over the Newell plane, harmonic inside and equal to `rim` at the outline's points, which come
-/// first.
+/// Heights of the triangulation's points over the Newell plane: equal to `rim` at the points of the outline,
+/// which come first, and harmonic inside.
 std::vector<double> harmonic_heights(const geometry::Triangulation& flat, const std::vector<double>& rim,
                                      const RunContext& context)
 {
@@ -85,7 +85,7 @@ VoidFilling filling_at(const Model& model, const NewellOutline& newell, const ge
     return result;
 }
 
-/// The outline triangulated with facets of one size.
+/// The triangulated outline, with facets of about the given size.
 geometry::Triangulation fine_facets(const Outline& outline, double facet_size, const RunContext& context)
 {
     geometry::TriangulateOptions fine;
@@ -108,8 +108,8 @@ VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell
 std::optional<VoidFilling> fill_on_sheet(const Model& model, const NewellOutline& newell,
                                          const QuadricSheet& sheet, const RunContext& context)
 {
-    // Number of facets along the diagonal of the outline. They are off the sheet by about a thousandth of its
-    // bulge; the number of all facets grows with the square of this number.
+    // Number of facets along the diagonal of the outline. The facets are off the sheet by about a thousandth
+    // of the sheet's bulge. The total number of facets grows with the square of this number.
     constexpr double kFacets = 32;
     const Outline& outline = newell.outline;
     Eigen::AlignedBox2d box;
@@ -124,7 +124,7 @@ std::optional<VoidFilling> fill_on_sheet(const Model& model, const NewellOutline
     return filling_at(model, newell, flat, heights);
 }
 
-/// A void face on the first sheet of its rim that covers it.
+/// A void face on the first sheet, of those that its rim determines, that covers the face.
 std::optional<VoidFilling> fill_as_rim_tells(const Model& model, const std::vector<Loop>& loops,
                                              const NewellOutline& newell, const RunContext& context)
 {
@@ -133,9 +133,9 @@ std::optional<VoidFilling> fill_as_rim_tells(const Model& model, const std::vect
     return std::nullopt;
 }
 
-/// Height of a surface over a place of a plane, measured where the normal through the place meets the
-/// surface, or at the closest point if the normal misses it. Empty if the normal meets the surface at several
-/// heights.
+/// Height of a surface over a place of a plane, at the intersection of the surface with the normal through
+/// the place. If they do not intersect, the height of the surface's closest point. Empty if they intersect at
+/// several heights.
 std::optional<double> height_of(const geometry::FacetTree& shape, const geometry::Plane& plane,
                                 const Vec2& place, double tolerance)
 {
@@ -153,7 +153,8 @@ std::optional<double> height_of(const geometry::FacetTree& shape, const geometry
     return height ? *height : geometry::height(plane, shape.closest(foot).point);
 }
 
-/// A bent face between four corners, if it is ruled or its rim lies on no quadric.
+/// A bent face between four corners. Empty if there are not exactly four convex corners, if the rim lies on a
+/// quadric and the face would not be ruled, or if the face folds.
 std::optional<VoidFilling> fill_between_corners(const Model& model, const std::vector<Loop>& loops,
                                                 const Vec3& normal, bool on_quadric,
                                                 const RunContext& context)

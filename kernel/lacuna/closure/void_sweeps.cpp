@@ -20,11 +20,11 @@ using namespace topology;
 
 namespace {
 
-/// Number of other sweep directions that are kept for when the first cannot be meshed. Each may cost as much
-/// time as the first.
+/// Number of other sweep directions that are kept, to be tried if the first cannot be meshed. Each may cost
+/// as much time as the first.
 constexpr std::size_t kMostOthers = 3;
 
-/// Whether a sweep of a closed skin with ends at several heights can be cut into pieces.
+/// Whether a closed skin with these roles can be cut at the steps of its ends; true if there are no steps.
 bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context)
 {
     OpenVolume volume{skin, std::vector<Role>(skin.faces.size()), std::nullopt};
@@ -35,8 +35,7 @@ bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context
         .has_value();
 }
 
-/// The given faces of a sealed volume, in the input model's numbering, and whether these are all of its
-/// faces.
+/// The given faces among some faces of a sealed volume.
 struct GivenPart {
     std::vector<FaceId> faces; ///< ascending
     bool all = true;
@@ -73,7 +72,7 @@ std::string ways_in_words(const Reading& reading)
                      reading.ways, reading.enclosed, reading.roles.irregular);
 }
 
-/// Make the reading an open volume with these roles of the model's faces.
+/// Set the volume, class and roles of a reading to those of an open volume.
 void take_open(const Model& model, RoleCandidate roles, Reading& reading, const RunContext& context)
 {
     reading.volume = open_volume(model, roles.roles, context);
@@ -93,14 +92,15 @@ RoleCandidate way_of(const OpenVolume& volume)
 bool has_ends(const RoleCandidate& way, const Ends& ends)
 {
     for (const GivenPart* end : {&ends.source, &ends.target})
-        if (!end->all && !end->faces.empty()) return false; // an end with both given and void faces
+        if (!end->all && !end->faces.empty()) return false; // an end that consists of given and void faces
     const std::vector<FaceId> s = rising(way.roles.source), t = rising(way.roles.target);
     return (s == ends.source.faces && t == ends.target.faces) ||
            (t == ends.source.faces && s == ends.target.faces);
 }
 
-/// Rank of a sweep among equally good ones: first sweeps with one or both ends open, because a bore or pocket
-/// is accessible there, then those between given ends, then those between faces that closing made.
+/// Rank of a sweep among those with equally many irregular nodes: 0 with both ends open, 1 with one end open,
+/// 2 between given ends, 3 if no candidate of the given faces has these ends. A bore or pocket is accessible
+/// at an open end.
 std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
 {
     const auto same = std::ranges::find_if(ways,

@@ -8,6 +8,26 @@
 
 namespace lacuna::healing {
 
+namespace {
+
+/// Divide a quad into two triangles along the diagonal for which the triangles do not fold onto each other.
+/// If that holds for both diagonals or for none, the shorter diagonal is taken.
+std::array<Triangle, 2> halves(const Quad& q, const std::vector<Vec3>& points)
+{
+    const auto at = [&](int i) { return points[static_cast<std::size_t>(q[static_cast<std::size_t>(i)])]; };
+    const auto fold = [&](int a, int b, int c, int d) { // whether the halves on the diagonal a-c fold
+        const Vec3 one = (at(b) - at(a)).cross(at(c) - at(a)), two = (at(c) - at(a)).cross(at(d) - at(a));
+        return one.dot(two) <= 0;
+    };
+    const bool first_folds = fold(0, 1, 2, 3), second_folds = fold(1, 2, 3, 0);
+    const bool first = first_folds == second_folds ? (at(2) - at(0)).norm() <= (at(3) - at(1)).norm()
+                                                   : !first_folds;
+    if (first) return {Triangle{q[0], q[1], q[2]}, Triangle{q[0], q[2], q[3]}};
+    return {Triangle{q[0], q[1], q[3]}, Triangle{q[1], q[2], q[3]}};
+}
+
+} // namespace
+
 void add(AddedFaces& faces, const AddedFace& face)
 {
     FacetSoup& soup = faces.soup;
@@ -45,7 +65,7 @@ topology::Model model_of(const AddedFaces& added, const RunContext& context)
                                    "connected",
                                    needed(added.count), found(model.faces.size()))
                                .remedy("add each part as a face of its own"));
-    // Restore the order of adding: the splitter makes the faces of triangles before those of quads.
+    // Restore the order of adding: split_facets() makes the faces of triangles before those of quads.
     std::vector<topology::Face> faces(model.faces.size());
     std::vector<bool> met(model.faces.size(), false);
     std::size_t next = 0;

@@ -14,7 +14,7 @@ namespace {
 /// Sample points of a face: corners and centres of its facets, projected on its exact surface if it has one.
 struct Samples {
     std::vector<Vec3> points;
-    double sagitta = 0; ///< largest distance from facets to the surface
+    double sagitta = 0; ///< largest distance from the samples on the facets to the surface [model length]
 };
 
 Samples samples_of(const topology::Model& model, const topology::Face& face, const RunContext& context)
@@ -68,7 +68,7 @@ bool faces_coincide(const topology::Model& model, const topology::Face& a, const
     const bool exact = a.surface && b.surface && a.uv.size() == a.triangles.size() &&
                        b.uv.size() == b.triangles.size();
     if (!exact && (a.surface || b.surface)) {
-        // Only one face has an exact surface: compare the facets of both.
+        // Only one face has a usable exact surface: compare the facets of both.
         topology::Face plain_a = a;
         topology::Face plain_b = b;
         plain_a.surface = plain_b.surface = nullptr;
@@ -82,7 +82,7 @@ bool faces_coincide(const topology::Model& model, const topology::Face& a, const
         return lie_on(of_a, model, b, reach, tolerance, context) &&
                lie_on(of_b, model, a, reach, tolerance, context);
     } catch (const BackendError&) {
-        return false; // projection failed, so the faces are not known to coincide
+        return false; // a projection failed, so it is unknown whether the faces coincide
     }
 }
 

@@ -26,8 +26,8 @@ EdgeTrack::EdgeTrack(const topology::Model& model, EdgeId id, const RunContext& 
             points.push_back(points_[i]);
             params_.push_back(edge.params[i]);
             if (i == middles.size()) break;
-            // On a circle, the sagitta of half a side is a quarter of the side's sagitta. The full sagitta is
-            // used here, which leaves a margin.
+            // The sagitta of a whole side is used as a bound for that of half a side, which on a circle is a
+            // quarter of it.
             sagitta_ = std::max(sagitta_, (middles[i] - (points_[i] + points_[i + 1]) / 2).norm());
             points.push_back(middles[i]);
             params_.push_back(middle_params[i]);
@@ -48,15 +48,15 @@ EdgeTrack::EdgePosition EdgeTrack::on_segment(const Vec3& p, std::size_t i) cons
     return place;
 }
 
-/// Refine all positions within reach at once by Gauss-Newton along the curve; the tangent is a finite
-/// difference.
+/// Refine all positions within `reach` together, by Gauss-Newton steps along the curve. Tangents are finite
+/// differences.
 void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> places, double reach,
                        const RunContext& context) const
 {
     if (!curve_) return;
-    constexpr int kSteps = 8;            // limit on the steps; a rule of thumb
-    constexpr double kDifference = 1e-4; // step of the difference, as a share of a side; the relative error
-                                         // of the tangent is the square of this share
+    constexpr int kSteps = 8;            // largest number of steps; they usually converge earlier
+    constexpr double kDifference = 1e-4; // step of the finite difference, as a share of a side's parameter
+                                         // range; the relative error of the tangent is about its square
     std::vector<std::size_t> active;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (places[i].distance <= reach) active.push_back(i);
@@ -136,8 +136,8 @@ std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<
     double least = 0;
     Vec3 before = points_.front();
     for (std::size_t q = 0; q < points.size(); ++q) {
-        // If the curve between two points were longer than four times its chord, it would leave the other
-        // edge by more than the tolerance.
+        // Length of the edge in which the next point is searched. A curve longer than four times the chord
+        // between two points would be further from the other edge than the tolerance.
         double window = 4 * ((points[q] - before).norm() + 2 * reach) +
                         (points_[from + 1] - points_[from]).norm();
         places[q].distance = kInfinity;

@@ -13,10 +13,11 @@
 namespace lacuna::healing {
 namespace {
 
-/// kRough: a point on a crease is rough if some sides at it turn up and others turn down, by more than this
-/// share of the feature angle but by less than that angle. kNoisy: the surface is noisy if more than this
-/// share of the points on creases is rough. Tessellated CAD has 0 %, and up to 13 % where branches of coarse
-/// facets meet at about the feature angle. Noise of 5 to 40 % of the facets' sides gives 41 to 85 %.
+/// kRough: a point on a crease is rough if the surface turns up at some sides there and down at others. Only
+/// turns between this share of the feature angle and the feature angle count. kNoisy: the surface is noisy if
+/// more than this share of the points on creases is rough. In tessellated CAD models the share is 0 %, or up
+/// to 13 % where branches of coarse facets meet at about the feature angle. With noise of 5 to 40 % of the
+/// facets' sides, the share is 41 to 85 %.
 constexpr double kRough = 0.125, kNoisy = 0.25;
 
 /// Whether two facets, or the quads that contain them, have the same corners.
@@ -66,8 +67,9 @@ Index partner(const Facets& facets, const FacetSides& sides, Index side)
 void borrow_normals(const Facets& facets, const FacetSides& sides, std::vector<Index> without,
                     std::vector<Vec3>& normal, const RunContext& context)
 {
-    // Facets without a normal may be adjacent, so repeat as long as some facet gets one. Shorter sides are
-    // tried last, because two such facets may share their longest side.
+    // Facets without a normal may be adjacent, so this is repeated as long as some facet gets a normal. If no
+    // facet gets one across its longest side, shorter sides are tried too: two facets without a normal may
+    // share their longest side.
     bool across_any = false;
     for (bool learnt = true; learnt && !without.empty();) {
         check_cancelled(context);
@@ -146,7 +148,8 @@ std::vector<Vec3> patch_normals(const Facets& facets, const FacetSides& sides, c
     for (const Triangle& corners : facets.corner) area.push_back(area_vector(facets.points, corners));
     std::vector<double> flattest(facets.count(), -1);
     std::vector<Index> seen(facets.count(), -1);
-    std::vector<std::pair<Index, bool>> patch; // facets in order of distance, and whether each is reversed
+    std::vector<std::pair<Index, bool>> patch; // facets in the order in which they were reached from the
+                                               // seed, and whether each is reversed
     for (Index seed = 0; index(seed) < facets.count(); ++seed) {
         if (index(seed) % kBetweenPolls == 0) check_cancelled(context);
         patch.assign(1, {seed, false});

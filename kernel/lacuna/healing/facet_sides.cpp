@@ -11,8 +11,8 @@ namespace lacuna::healing {
 FacetSides::FacetSides(std::span<const Triangle> facets, std::size_t points)
     : facets_(facets), segment_(3 * facets.size())
 {
-    // Collect sides by their lower point, then sort each small group by the other point: linear in the
-    // facets.
+    // Group the sides by their lower point, then sort each group by the other point. Groups are small, so the
+    // time is linear in the number of facets.
     const auto count = static_cast<Index>(segment_.size());
     Incidence lower = incidence(points, [&](const auto& visit) {
         for (Index s = 0; s < count; ++s) visit(index(std::min(from(s), to(s))), s);

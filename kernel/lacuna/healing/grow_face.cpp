@@ -26,8 +26,8 @@ struct Cell {
     [[nodiscard]] std::size_t count() const { return corners[3] < 0 ? 3 : 4; }
 };
 
-/// Add the face's given quads, and its triangles that are not halves of given quads. `cell_of` receives the
-/// cell of each triangle.
+/// Add the given quads of a face, and its triangles that are not halves of given quads, to `cells`. The index
+/// of each triangle's cell is appended to `cell_of`.
 void add_cells(const topology::Face& face, Index number, std::vector<Cell>& cells,
                std::vector<Index>& cell_of)
 {
@@ -59,7 +59,7 @@ public:
 
     [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
 
-    /// Returns a flag for each cell: whether growth reached it.
+    /// @return  by cell: whether growth reached it.
     std::vector<bool> grow(const Vec3& near, std::span<const FaceId> among, const RunContext& context)
     {
         std::vector<bool> may(model_.faces.size(), false);
@@ -134,7 +134,7 @@ private:
     Index seed_ = -1;
 };
 
-/// The cells as a soup: one label per face, and one more for the grown cells.
+/// The cells as a soup: one label for each face, and one more for the cells that growth reached.
 FacetSoup soup_of(const topology::Model& model, const std::vector<Cell>& cells,
                   const std::vector<bool>& grown)
 {
@@ -153,8 +153,8 @@ FacetSoup soup_of(const topology::Model& model, const std::vector<Cell>& cells,
     return soup;
 }
 
-/// Put the faces in their previous order, new ones last, with their previous tags, names and groups. Restore
-/// the model's source, diagonal and notes.
+/// Restore the order, tags, names and groups of the faces, new faces last, and the model's source, diagonal
+/// and notes.
 void arrange(const topology::Model& before, Index seed, GrownFace& found)
 {
     topology::ModelBuilder model(std::move(found.model));
@@ -217,7 +217,7 @@ GrownFace grow_face(const topology::Model& model, const Vec3& near, std::span<co
     Grower grower(model, options.angle);
     const std::vector<bool> grown = grower.grow(near, among, context);
     const Index seed = grower.seed_face();
-    // Check whether the result is exactly one existing face.
+    // Whether growth took exactly one existing face.
     bool same = true;
     for (std::size_t c = 0; c < grown.size(); ++c)
         same = same && grown[c] == (grower.cells()[c].face == seed);

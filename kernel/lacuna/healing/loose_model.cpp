@@ -16,8 +16,8 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Remove pairs of facets that lie back to back. They remain when a facet no wider than the tolerance
-/// collapses.
+/// Remove pairs of facets that lie back to back. Such pairs arise when a facet that is no wider than the
+/// tolerance collapses.
 /// @return whether any were removed
 bool drop_folds(topology::Face& face)
 {
@@ -189,8 +189,8 @@ void LooseModel::remove(FaceId f)
     for (std::vector<FaceId>& users : users_) std::erase(users, f);
 }
 
-/// If a facet side inside a face joins the two ends of a single-segment edge of another face, split the side:
-/// it would otherwise be taken for that edge.
+/// A facet side inside a face may have the same two ends as an edge of another face with a single segment.
+/// Split such a side; otherwise it would be taken for this edge.
 void LooseModel::part_shortcuts()
 {
     std::map<std::pair<Index, Index>, std::vector<FaceId>> single;
@@ -251,11 +251,12 @@ void LooseModel::renew_parameters(const RunContext& context)
         try {
             face.surface->project(at, uv, context);
         } catch (const BackendError&) {
-            continue; // keep the interpolated parameters as a start value
+            continue; // keep the interpolated parameters
         }
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const auto [t, k] = corners[i];
-            // At a seam the projection may return the parameters of the seam's other side.
+            // At a seam, the projection may return parameters of the other side of the seam. Such a change is
+            // larger than half a facet and is ignored.
             for (int axis = 0; axis < 2; ++axis) {
                 const auto [low, high] = std::minmax(
                     {face.uv[t][0][axis], face.uv[t][1][axis], face.uv[t][2][axis]});
@@ -268,7 +269,7 @@ void LooseModel::renew_parameters(const RunContext& context)
     }
 }
 
-/// Remove edges that lost all their facets.
+/// Remove edges that no facet has any more.
 void LooseModel::drop_bare_edges()
 {
     std::set<std::pair<Index, Index>> sides;

@@ -9,7 +9,8 @@ namespace lacuna::healing {
 
 namespace {
 
-/// A side on a face's border, in the direction of its facet.
+/// A facet side on the border of a face. `forward`: whether the facet uses it from the lower to the higher
+/// point.
 struct BorderUse {
     FaceId face;
     bool forward;
@@ -20,7 +21,7 @@ Borders borders_of(const topology::Model& model, const std::vector<std::size_t>&
 {
     Borders borders;
     for (const std::size_t f : group) {
-        // Sides inside a face occur once in each direction and cancel; the border remains.
+        // A side inside a face occurs once in each direction, so the sum is 0; on the border it is not.
         std::map<std::pair<Index, Index>, int> net;
         for (const Triangle& t : model.faces[f].triangles) {
             for (std::size_t k = 0; k < 3; ++k) {

@@ -10,14 +10,14 @@
 namespace lacuna::healing {
 namespace {
 
-/// Parameters of Taubin's filter. kStep: share of the way to the mean. kPassBand: lower frequencies are kept;
-/// Taubin's value. kPasses: enough to reduce noise of 20 % of the sides to 6 %; the radius of a tube of 40
-/// sides then changes by less than 1e-3 of itself.
+/// Parameters of Taubin's filter. kStep: a point moves by this share of the distance to the mean. kPassBand:
+/// frequencies below it are kept; Taubin's value. kPasses: this number reduces noise of 20 % of the facets'
+/// sides to 6 %, and changes the radius of a tube with 40 sides by less than 0.1 %.
 constexpr double kStep = 0.5, kPassBand = 0.1;
 constexpr int kPasses = 30;
 
-/// For each point that moves, the neighbours whose mean it moves towards: inside a face all neighbours, on an
-/// edge the two along the edge. Corners and nodes that must be kept do not move.
+/// For each point, the neighbours towards whose mean it moves: inside a face all its neighbours, on an edge
+/// its two neighbours along the edge. Empty for vertices and for nodes that must be kept, which do not move.
 Incidence movers(const topology::ModelBuilder& model)
 {
     enum : char { in_face, on_edge, fixed };
@@ -27,7 +27,8 @@ Incidence movers(const topology::ModelBuilder& model)
     std::vector<int> ends(model.vertices.size(), 0);
     for (const topology::Edge& edge : model.edges)
         for (const VertexId end : {edge.from, edge.to}) ++ends[end.index()];
-    const auto is_closed = [&](const topology::Edge& edge) { // its vertex only marks where the loop starts
+    const auto is_closed = [&](const topology::Edge& edge) { // the vertex of such an edge only marks its
+                                                             // start
         return edge.from == edge.to && ends[edge.from.index()] == 2;
     };
     for (const topology::Edge& edge : model.edges)

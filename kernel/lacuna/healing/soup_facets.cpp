@@ -38,7 +38,27 @@ void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>&
     }
 }
 
-/// Check that squared areas can be represented, also for facets of a millionth of the diagonal.
+/// Split a quad along one of its diagonals: the one for which the worse of both halves has the better shape.
+std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q)
+{
+    const std::array<std::array<Triangle, 2>, 2> choices{
+        {{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}}, {{{q[1], q[2], q[3]}, {q[1], q[3], q[0]}}}}};
+    const Vec3 normal = area_vector(points, choices[0][0]) + area_vector(points, choices[0][1]);
+    std::array<double, 2> worst;
+    for (std::size_t c = 0; c < 2; ++c) {
+        worst[c] = std::numeric_limits<double>::max();
+        for (const Triangle& t : choices[c]) {
+            double sides = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                sides += (points[index(t[k])] - points[index(t[(k + 1) % 3])]).squaredNorm();
+            worst[c] = std::min(worst[c], area_vector(points, t).dot(normal) / sides);
+        }
+    }
+    return choices[worst[1] > worst[0] ? 1 : 0];
+}
+
+/// @throw InvalidInput  squared areas of facets, also of those as small as a millionth of the diagonal, would
+///         overflow or underflow.
 void check_size(const Vec3& low, const Vec3& high, double diagonal)
 {
     constexpr double kLeast = 1e-70, kMost = 1e70; // their fourth powers are well within a double's range
@@ -49,8 +69,8 @@ void check_size(const Vec3& low, const Vec3& high, double diagonal)
                            .remedy("load with another scale"));
 }
 
-/// Weld the points that facets use and add them to `facets`, in the order of the soup.
-/// @return  for each point of the soup, its number there; -1: not used
+/// Weld the points that facets use, and add the welded points to `facets` in the order of the soup.
+/// @return  for each point of the soup, its index in `facets`; -1: not used
 std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets,
                              const RunContext& context)
 {
@@ -110,7 +130,7 @@ void drop_unused_points(Facets& facets)
         for (Index& p : q) p = number[index(p)];
 }
 
-/// Whether each cell has the same corners as an earlier cell of its label, in any order.
+/// For each cell, whether an earlier cell of the same label has the same corners, in any order.
 template <std::size_t N>
 std::vector<bool> repeated_cells(std::size_t points, const std::vector<std::array<Index, N>>& cells,
                                  const std::vector<int>& labels)
@@ -160,7 +180,7 @@ void drop_repeated(Facets& facets)
     std::size_t next = 0;
     for (std::size_t f = 0; f < facets.corner.size(); ++f) {
         if (gone_with_quad(f)) continue;
-        // A half of a quad is kept with its quad, even if a triangle coincides with it.
+        // A half of a quad stays, even if it repeats a triangle.
         if (repeated[next++] && facets.quad[f] < 0) continue;
         facets.corner[kept] = facets.corner[f];
         facets.label[kept] = facets.label[f];
@@ -192,7 +212,7 @@ void close_tees(Facets& facets, const RunContext& context)
     }
 }
 
-/// The point furthest from the median position.
+/// The point furthest from the median of the coordinates.
 Vec3 point_far_from_others(const std::vector<Vec3>& points)
 {
     Vec3 middle;
@@ -219,9 +239,9 @@ bool has_three_places(const std::vector<Vec3>& points, std::span<const Index> co
     return places >= 3;
 }
 
-/// Refuse facets if none is left after welding or, with the default tolerance, if more collapsed than are
-/// left. The default tolerance depends on the extent of all points, so one stray point, or two distant parts,
-/// can make it larger than the facets.
+/// @throw InvalidInput  no facet is left after welding, or, with the default tolerance, more facets collapsed
+///         than are left. The default tolerance depends on the extent of all points: a single stray point, or
+///         two distant parts, can make the tolerance larger than the facets.
 /// @param given  the user's tolerance; 0: none was given.
 void check_left(const FacetSoup& soup, const Facets& facets, double given)
 {

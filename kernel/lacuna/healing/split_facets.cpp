@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// split_facets(): weld points, match facet sides, flood facets into faces, and chain the segments between
-// faces into edges. Segments are the undirected sides of facets, numbered by their points.
+// Steps of split_facets(): weld points, match facet sides, collect adjacent facets into faces, and chain the
+// segments between faces into edges. Segment: an undirected side of facets, see `FacetSides`.
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/topology/model.h>
 
@@ -26,12 +26,12 @@ namespace lacuna::healing {
 namespace {
 
 /// Number of sides over which the turn of a border is measured on a noisy surface. With noise of 40 % of the
-/// facets' sides, the turn is then off by 9 degrees, a quarter of the feature angle.
+/// facets' sides, the measured turn is then off by 9°, about a quarter of the default feature angle.
 constexpr int kNoisyReach = 8;
 
 struct Flood {
-    std::vector<Index> face;   ///< the face that each facet belongs to
-    std::vector<bool> flipped; ///< facets oriented against their face
+    std::vector<Index> face;   ///< by facet: the face that it belongs to
+    std::vector<bool> flipped; ///< by facet: whether it is oriented against its face
     Index faces = 0;
 };
 
@@ -46,7 +46,8 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vect
         const Index face = flood.faces++;
         flood.face[seed] = face;
         front.assign(1, static_cast<Index>(seed));
-        double as_given = 0; // area that keeps its given orientation, minus the area that is reversed
+        double as_given = 0; // area of facets that keep their given orientation, minus that of reversed
+                             // facets
         for (std::size_t i = 0; i < front.size(); ++i) {
             if (i % kBetweenPolls == 0) check_cancelled(context);
             const Index f = front[i];
@@ -82,8 +83,8 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vect
     return flood;
 }
 
-/// The faces of a noisy surface, separated by the normals of patches. A region smaller than a patch is not a
-/// face: it is added to a face beside it.
+/// The faces of a noisy surface, separated by the mean normals of patches (`patch_normals()`). A region with
+/// fewer facets than a patch is no face of its own; it is added to an adjacent face.
 Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature, const RunContext& context)
 {
     std::vector<Vec3> normal = patch_normals(facets, sides, context);
@@ -99,7 +100,7 @@ Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature,
     }
     if (dust.empty()) return flood;
     borrow_normals(facets, sides, dust, normal, context);
-    for (const Index f : dust) // facets with no larger face beside them get their own normals back
+    for (const Index f : dust) // facets without a larger adjacent face get their previous normals back
         if (normal[index(f)].isZero(0)) normal[index(f)] = before[index(f)];
     return flood_faces(facets, sides, normal, feature, context);
 }
@@ -185,7 +186,7 @@ public:
             is_vertex_[p] = ends_chains(static_cast<Index>(p));
     }
 
-    /// Add the edges face by face. The face that comes first is on the left of the edge.
+    /// Add the edges, face by face. The first face at an edge is on the left of the edge.
     void add_edges(const Flood& flood)
     {
         const Incidence of_face = incidence(index(flood.faces), [&](const auto& visit) {
@@ -204,8 +205,8 @@ public:
     }
 
 private:
-    /// A segment belongs to an edge unless each face at it has two facets there. Segments with the same set
-    /// of faces are of one kind, and chain into one edge.
+    /// Find the segments that belong to edges: those at which some face does not have exactly two facets.
+    /// Segments with the same faces are of one kind; segments of one kind are chained into edges.
     void find_borders(const Flood& flood)
     {
         std::map<std::vector<Index>, Index> kinds;
@@ -242,14 +243,15 @@ private:
     }
     [[nodiscard]] std::span<const Index> segments_at(Index point) const { return at_.of(index(point)); }
 
-    /// Whether the chain continues through the point: it has two segments, both of one kind.
+    /// Whether a chain continues through a point: exactly two edge segments meet there, and both are of one
+    /// kind.
     [[nodiscard]] bool goes_on(Index point) const
     {
         const auto here = segments_at(point);
         return here.size() == 2 && kind_[index(here[0])] == kind_[index(here[1])];
     }
 
-    /// The next points along a chain, at most as many as the reach.
+    /// The next points along a chain, at most `reach_` of them.
     [[nodiscard]] std::vector<Index> points_after(Index point, Index segment) const
     {
         std::vector<Index> points;
@@ -271,9 +273,10 @@ private:
         return geometry::angle_between(into, onward);
     }
 
-    /// Whether chains end at this point: at another kind of segment, or at a corner. With a reach of more
-    /// than one side, a corner is the point of largest turn within the reach. Its turn must also exceed the
-    /// turn at one end of the reach by more than the feature angle.
+    /// Whether chains end at this point: segments of different kinds meet there, or the point is a corner,
+    /// where a chain turns by more than the feature angle. If `reach_` exceeds 1, a corner must also have the
+    /// largest turn of all points within the reach, and its turn must exceed that at one end of the reach by
+    /// more than the feature angle.
     [[nodiscard]] bool ends_chains(Index point) const
     {
         const auto here = segments_at(point);
@@ -303,7 +306,7 @@ private:
         return id;
     }
 
-    /// Points from `point` along `segment` up to a vertex, or back to the start.
+    /// The points of a chain from `point` along `segment`, up to a vertex or back to the start.
     std::vector<Index> walk(Index segment, Index point)
     {
         std::vector<Index> points{point};
@@ -322,7 +325,7 @@ private:
         std::vector<Index> points = walk(segment, start);
         const bool closed = points.front() == points.back();
         if (!is_vertex_[index(start)] && !closed) {
-            // The walk may have started in the middle of a chain: prepend the other half, reversed.
+            // The walk started in the middle of a chain: prepend the other part, reversed.
             const auto here = segments_at(start);
             std::vector<Index> before = walk(here[0] == segment ? here[1] : here[0], start);
             std::reverse(before.begin(), before.end());
@@ -347,7 +350,7 @@ private:
     double feature_;
     int reach_;
     std::vector<Index> kind_; ///< kind of each segment; -1: the segment is within a face
-    std::vector<bool> done_;  ///< segments already chained
+    std::vector<bool> done_;  ///< by segment: whether it is part of an edge already
     Incidence at_;            ///< edge segments at each point
     std::vector<bool> is_vertex_;
     std::vector<VertexId> vertex_at_;

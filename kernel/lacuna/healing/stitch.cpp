@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // stitch() merges vertices, collapses short edges, splits T-junctions, merges coincident edges with all their
-// points, and removes duplicates. Each step collects its changes before it makes them, so the order of
-// entities decides only which tag is kept.
+// points, and removes duplicates. Each step collects all changes before it makes them. Therefore the order of
+// the entities only determines which tags are kept.
 #include <lacuna/healing/shared/stitch.h>
 
 #include <lacuna/core/error.h>
@@ -22,8 +22,8 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Points on an exact curve merge if they are closer than this share of the shortest segment next to them:
-/// facets between them would be slivers.
+/// Points on an exact curve merge if they are closer than this share of the shortest segment next to them.
+/// Otherwise the facets between them would be slivers.
 constexpr double kJoinOnCurve = 0.25;
 
 class Stitcher {
@@ -50,21 +50,22 @@ private:
     struct Stop {
         VertexId vertex;
         EdgeTrack::EdgePosition place;
-        std::size_t node = 0; ///< point of the edge to merge with; 0: none, a point is inserted
+        std::size_t node = 0; ///< index of the edge's point with which the vertex merges; 0: a new point is
+                              ///< inserted
     };
-    /// A point of an edge that results from merging.
+    /// A point of a merged edge.
     struct Node {
-        double s = 0, param = 0; ///< position and parameter on the edge that gives the shape
+        double s = 0, param = 0; ///< position and parameter on the bundle's first edge
         Index point = -1;
     };
-    /// An edge merged into another, and the nodes that its points become.
+    /// An edge that merges into another, and the index of the node that each of its points becomes.
     struct MergedEdge {
         EdgeId edge;
         std::vector<std::size_t> nodes;
     };
     /// Coincident edges.
     struct Bundle {
-        EdgeId first; ///< gives shape and tag
+        EdgeId first; ///< the edge that gives the bundle its shape and tag
         std::vector<Node> nodes;
         std::vector<std::size_t> order; ///< nodes in order along the edge
         std::vector<MergedEdge> merged;
@@ -102,7 +103,7 @@ private:
     double tolerance_, share_;
     const RunContext& context_;
     StitchReport report_;
-    std::map<EdgeId, std::optional<EdgeTrack>> tracks_; ///< cache; entries of changed edges are dropped
+    std::map<EdgeId, std::optional<EdgeTrack>> tracks_; ///< cache; cleared when edges change
 };
 
 // --- vertices and short edges ------------------------------------------------------------------------------
@@ -244,7 +245,7 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
     double sagitta = 0;
     for (std::size_t e = 0; e < model().edges.size(); ++e) {
         if (loose_.is_gone(EdgeId(e))) continue;
-        // Each use of a seam edge has its own border, so the face needs no cut there.
+        // A seam is not split: both its sides belong to the same face.
         if (loose_.is_seam(EdgeId(e))) continue;
         const EdgeTrack& on = track(EdgeId(e));
         sagitta = std::max(sagitta, on.sagitta());
@@ -280,7 +281,7 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
     return stops;
 }
 
-/// Assign each stop to a point of the edge if one is near. Drop stops at which a kept mesh has no node.
+/// Assign each stop to a point of the edge if one is near. Drop stops between two nodes of a kept mesh.
 void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
 {
     const topology::Edge& edge = model()[e];
@@ -309,14 +310,15 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
                     .remedy("load with keep_mesh = false, or make the meshes match"));
             continue;
         }
-        // If the stop came before a point that is already in use, the edge would fold back.
+        // The stop must not lie before a point that an earlier stop uses: the edge would fold back.
         if (stop.node == 0) stop.place.s = std::max(stop.place.s, static_cast<double>(taken));
         placed.push_back(stop);
     }
     stops = std::move(placed);
 }
 
-/// Choose a new start for each closed polyline whose own vertex is arbitrary: a vertex that was found on it.
+/// Choose a new start for each closed polyline whose own vertex belongs to no other edge: a vertex that was
+/// found on the polyline.
 /// @return  by edge: its new start
 std::map<EdgeId, VertexId> Stitcher::begin_elsewhere(std::map<EdgeId, std::vector<Stop>>& stops)
 {
@@ -395,8 +397,8 @@ void Stitcher::merge_edges()
     }
     if (bundles.empty()) return;
 
-    // For each facet side that gets points: its ends and its new points, with their numbers from before the
-    // points merge. All sides are collected before any is changed.
+    // A facet side that gets points: its ends and its new points, numbered as before the points merge. All
+    // sides are collected before any side is changed.
     struct FilledSide {
         Index from, to;
         std::vector<Index> between;
@@ -443,7 +445,7 @@ void Stitcher::merge_edges()
 
 std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
 {
-    // Exact curves first: polylines then take their shape.
+    // Exact curves come first, so that polylines take the shape of an exact curve.
     std::stable_sort(group.begin(), group.end(),
                      [&](EdgeId a, EdgeId b) { return track(a).exact() && !track(b).exact(); });
     std::vector<Bundle> bundles;
@@ -465,8 +467,8 @@ std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
     return bundles;
 }
 
-/// Merge two free edges that are further apart than the tolerance, if their distance is small relative to
-/// their length.
+/// Merge two free edges with exact curves that are further apart than the tolerance, if their distance is at
+/// most `share_` times the length of the shorter one.
 void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
 {
     std::vector<Bundle*> free;
@@ -517,7 +519,8 @@ bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
     return false;
 }
 
-/// Each point of the edge becomes a node of the bundle; a new node is added if none is near.
+/// Merge the points of an edge into the nodes of a bundle; a point without a near node becomes a new node.
+/// @return false, with a note, if a kept mesh does not permit this.
 bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
                          const std::vector<EdgeTrack::EdgePosition>& places)
 {
@@ -530,7 +533,7 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
     std::vector<Node> nodes = bundle.nodes;
     std::vector<std::size_t> order = bundle.order;
     std::vector<std::size_t> become{order.front()};
-    std::size_t last = 0; // position in the order
+    std::size_t last = 0; // position in `order` of the node that the previous point became
     bool fits = true;
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
         const double s = places[i].s;

@@ -14,8 +14,8 @@ namespace lacuna::healing {
 namespace {
 
 /// Two free edges with the same ends look like a gap if their distance is at most this share of the shorter
-/// edge's length. The two half circles of a hole are 0.45 of their length apart, so they do not look like a
-/// gap.
+/// edge's length. The two half circles of a hole do not look like a gap: their distance is 0.45 of their
+/// length.
 constexpr double kLooksLikeGap = 0.25;
 
 void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector<FaceId>& alike,
@@ -28,7 +28,7 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
         std::set<int> others;
         for (const FaceId f : loose.users(e))
             if (class_of[f.index()] != own) others.insert(class_of[f.index()]);
-        if (others.size() > 1) stay = 2; // both are needed: each has a face connected to it
+        if (others.size() > 1) stay = 2; // two are needed: each is connected to another face
     }
     const auto worth = [&](FaceId f) {
         return (model[f].given_quads.empty() ? 0 : 2) + (model[f].surface ? 1 : 0);
@@ -85,8 +85,8 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
     std::map<std::vector<EdgeId>, std::vector<FaceId>> by_border;
     for (std::size_t f = 0; f < edges.size(); ++f)
         if (!loose.is_gone(FaceId(f))) by_border[edges[f]].emplace_back(f);
-    // Many faces may have no border, such as spheres. Comparing their boxes excludes most pairs. If two faces
-    // facet the same surface differently, their boxes differ by far less than a tenth.
+    // Many faces may have no border, such as spheres. A comparison of boxes excludes most pairs. The boxes of
+    // two coincident faces with different facets differ by far less than a tenth.
     std::map<FaceId, Eigen::AlignedBox3d> boxes;
     const auto box_of = [&](FaceId f) -> const Eigen::AlignedBox3d& {
         auto [box, fresh] = boxes.try_emplace(f);
@@ -101,7 +101,7 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
         const double apart = std::max((of_a.min() - of_b.min()).norm(), (of_a.max() - of_b.max()).norm());
         return apart <= tolerance + of_a.diagonal().norm() / 10;
     };
-    // Coincident faces are in one class.
+    // Class: a set of coincident faces.
     std::vector<int> class_of(edges.size(), -1);
     std::vector<std::vector<FaceId>> classes;
     for (std::size_t f = 0; f < edges.size(); ++f) {

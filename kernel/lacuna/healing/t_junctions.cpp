@@ -18,7 +18,7 @@ std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::sp
     std::vector<Index> candidates;
     std::vector<Vec3> at;
     std::vector<std::array<Vec3, 2>> segments;
-    std::vector<std::array<Index, 3>> ends; // ends of each free side, and the opposite corner
+    std::vector<std::array<Index, 3>> ends; // by free side: its ends, and the opposite corner of its facet
     for (Index s = 0; s < static_cast<Index>(3 * facets.size()); ++s) {
         if (all.on(all.segment(s)).size() != 1) continue;
         const Triangle& f = facets[index(s) / 3];

@@ -31,7 +31,8 @@ std::uint64_t hash_of(const GridCell& cell)
 /// Hash table of points by grid cell, with chaining.
 class CellTable {
 public:
-    /// @param points  point numbers lie in [0, points). @param cells  expected number of occupied cells
+    /// @param points  number of points.
+    /// @param cells  expected number of occupied cells
     CellTable(std::size_t points, std::size_t cells)
         : first_(std::bit_ceil(cells + cells / 2 + 1), -1), next_(points, -1)
     {
@@ -55,11 +56,12 @@ private:
     std::vector<Index> first_, next_;
 };
 
-/// Merge equal points first. An STL file repeats each point about six times, and this is cheaper than the
-/// search.
+/// Merge equal points. This is done first, because it is cheaper than the search for near points, and an STL
+/// file repeats each point about six times.
 std::vector<Index> weld_equal(std::span<const Vec3> points)
 {
-    constexpr std::size_t kRepeats = 4; // rule of thumb; if no point repeats, four points share a slot
+    constexpr std::size_t kRepeats = 4; // expected repeats of a point; if no point repeats, four points share
+                                        // a slot, which only costs time
     std::vector<Index> result(points.size());
     CellTable table(points.size(), points.size() / kRepeats);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -78,8 +80,8 @@ std::vector<Index> weld_equal(std::span<const Vec3> points)
     return result;
 }
 
-/// Width of a cell, in tolerances. Most points then search no neighbouring cell, and few points share a cell.
-/// Rule of thumb; it affects run time only.
+/// Width of a cell, in tolerances. For most points, only their own cell is then searched, and few points
+/// share a cell. The value only affects run time.
 constexpr double kCellWidth = 32;
 
 } // namespace
@@ -90,8 +92,8 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
     if (!(tolerance > 0) || points.empty()) return result;
     Eigen::AlignedBox3d box;
     for (const Vec3& p : points) box.extend(p);
-    // If the tolerance is below the resolution of the coordinates, cells are wider, so that cell numbers do
-    // not overflow.
+    // Cells are wider if the tolerance is below the resolution of the coordinates; cell numbers would
+    // overflow otherwise.
     const double width = std::max(kCellWidth * tolerance, box.sizes().maxCoeff() * std::ldexp(1.0, -52));
     const auto cell_at = [&](const Vec3& p) {
         const Eigen::Array3d cell = ((p - box.min()) / width).array().floor();

@@ -13,15 +13,15 @@ namespace lacuna::matching {
 
 namespace {
 
-/// Weight of a rotation by 180° in the score, relative to a residual as large as the loop. It is small enough
-/// to decide only between fits of about the same residual.
+/// Score of a rotation by 180°, where a residual as large as the loop's length has the score 1. The value is
+/// small, so that rotation only decides between fits with about the same residual.
 constexpr double kTurnWeight = 0.1;
-/// Number of golden-section steps. They converge to a millionth of a sample distance.
+/// Number of golden-section steps; they reduce the interval to a millionth of a sample distance.
 constexpr int kSections = 30;
 
 using Hard = std::map<VertexId, VertexId>;
 
-/// True if the hard pairs of two loops with equal numbers of vertices allow the alignment.
+/// Whether an alignment of two loops with equal numbers of vertices keeps their hard pairs.
 bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target, std::size_t shift,
              bool backward)
 {
@@ -34,8 +34,8 @@ bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target,
     return true;
 }
 
-/// Whether the normals of two aligned loops point in opposite directions along the line between the loops: 0
-/// if they do not, as in a plain sweep, up to 1.
+/// 0 if the normals of two aligned loops point in the same direction along the line between the loops, as in
+/// a plain sweep. Otherwise up to 1: the smaller cosine of the angles between a normal and the line.
 double overturned(const LoopShape& source, const LoopShape& target, bool backward)
 {
     const Vec3 way = (target.centroid - source.centroid).stableNormalized();
@@ -44,7 +44,7 @@ double overturned(const LoopShape& source, const LoopShape& target, bool backwar
     return low * high < 0 ? std::min(std::abs(low), std::abs(high)) : 0;
 }
 
-/// Fit and rate an alignment whose target samples are given. Rotation is penalised only if no wall fixes it.
+/// Fit an alignment and set its score. Rotation adds to the score only if no wall determines the rotation.
 void rate(Alignment& alignment, const Problem& problem, const LoopShape& source, const LoopShape& target,
           const std::vector<Vec3>& from, std::vector<Vec3> to, const PointPairs& known, bool with_scale)
 {
@@ -61,7 +61,7 @@ std::vector<Vec3> with(std::vector<Vec3> points, const std::vector<Vec3>& more)
     return points;
 }
 
-/// Number of possible starts on a loop paired by length: its given nodes, or samples.
+/// Number of possible starts on a loop paired by length: that of its given nodes or samples.
 std::size_t places_of(const LoopShape& target) { return target.by_sides ? given_sides(target) : kSamples; }
 
 /// The samples of a target under an alignment, in the order of the corresponding `source_samples()`.
@@ -127,12 +127,13 @@ Alignment slid(const Problem& problem, const LoopShape& source, const LoopShape&
         }
     }
     const Alignment& best = a.score <= b.score ? a : b;
-    // Keep the sampled start unless sliding improves the fit.
+    // Keep the start at a sample unless another start improves the fit.
     const Alignment start = at(alignment.offset);
     return best.score < start.score ? best : start;
 }
 
-/// Mean shift between an alignment's vertex pairs and an alignment by length, as a share of the loop.
+/// Mean distance along the loop between the partners of vertices under two alignments: one by vertices and
+/// one by length. As a share of the loop.
 double mean_twist(const LoopShape& source, const LoopShape& target, const Alignment& by_vertices,
                   const Alignment& by_length)
 {
@@ -162,8 +163,8 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     if (problem.hard.empty() && low == all && high == all) return false;
     const std::vector<Alignment> found = rated(problem, &problem.hard, source, target, true, problem.backward,
                                                problem.led_near(s));
-    // No alignment keeps all hard pairs. If those from the walls alone cannot be kept either, the loops are
-    // paired by length, which splits edges. If they can, the user's pairs contradict each other or the walls,
+    // No alignment keeps all hard pairs. If no alignment keeps even the pairs from the walls, the loops are
+    // paired by length, which splits edges. Otherwise the user's pairs contradict each other or the walls,
     // and are refused later.
     if (found.empty())
         return rated(problem, &problem.walls, source, target, true, problem.backward, {}).empty();

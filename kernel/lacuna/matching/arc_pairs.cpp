@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// All positions are shares of the source loop's length. Target vertices are mapped to them by scaling the arc
-// length between pairs.
+// All positions are shares of the source loop's length. `ShareMap` maps positions on the target to such
+// shares.
 #include <lacuna/matching/detail/arc_pairs.h>
 
 #include <lacuna/core/shared/constants.h>
@@ -16,11 +16,11 @@ namespace lacuna::matching {
 
 namespace {
 
-/// Corners further apart than this share of the longer adjacent side are not paired: another corner is then
-/// closer.
+/// Corners further apart than this share of the longest side next to them are not paired. On equal sides,
+/// another corner is then closer.
 constexpr double kFarCorner = 0.5;
-/// Vertices closer than this share of the adjacent side are paired; otherwise an edge is split. A higher
-/// value twists void edges more, a lower one makes shorter edges.
+/// Vertices closer than this share of the shortest side next to them are paired; otherwise an edge is split.
+/// A higher value twists void edges more; a lower one makes shorter edges.
 constexpr double kNear = 0.25;
 
 double share(double x)
@@ -35,8 +35,8 @@ double round_distance(double a, double b)
     return std::min(apart, 1 - apart);
 }
 
-/// Maps shares of the target's length to shares of the source's length: piecewise linear between pairs, a
-/// rotation without pairs.
+/// Maps shares of the target's length to shares of the source's length, and back: linearly between
+/// consecutive pairs; without pairs, by the offset and the direction.
 class ShareMap {
 public:
     ShareMap(double offset, bool backward, const std::vector<std::pair<double, double>>& fixed)
@@ -98,7 +98,8 @@ std::pair<std::vector<std::size_t>, double> in_line(const std::vector<double>& f
     return {chosen, cost[n][m]};
 }
 
-/// The same assignment on a circle: try every partner of the first value and assign the others in order.
+/// The assignment of `in_line()` on a circle: every partner of the first value is tried, and the others are
+/// assigned in order.
 std::vector<std::size_t> round_about(const std::vector<double>& few, const std::vector<double>& many)
 {
     std::vector<std::size_t> best;
@@ -144,7 +145,7 @@ public:
         if (i < partner_.size() && j < taken_.size()) pair(i, j);
     }
 
-    /// Map the target's vertices with the current pairs.
+    /// Compute the positions of the target's vertices from the current pairs.
     void fit_shares()
     {
         std::vector<std::pair<double, double>> knots;
@@ -223,7 +224,7 @@ private:
         return loop.open[i] && partner[i] == kNoIndex;
     }
 
-    /// The shorter or the longer of the sides next to a vertex.
+    /// Length of the shorter or the longer side next to a vertex, as a share of the loop.
     static double side(const ArcLoop& loop, std::size_t i, bool shorter)
     {
         const std::size_t n = loop.at.size();
@@ -233,8 +234,8 @@ private:
         return shorter ? std::min(before, after) : std::max(before, after);
     }
 
-    /// Pair the corners in a segment of the loops, also those on walls, because a wall may stop before the
-    /// target.
+    /// Pair the unpaired corners between two pairs, or on the whole loops. Corners on walls are included,
+    /// because a wall may end before the target.
     void pair_corners(double from, double run, bool whole)
     {
         std::vector<std::pair<double, std::size_t>> low, high;
@@ -269,7 +270,7 @@ private:
         }
     }
 
-    /// Add one split if there is no pair and no split: a loop needs at least one void edge.
+    /// Add one split: a loop needs at least one void edge.
     void add_one(ArcPairs& found) const
     {
         std::size_t best = kNoIndex;
@@ -294,7 +295,7 @@ private:
     std::vector<std::size_t> partner_; ///< by source vertex: index of its target vertex
     std::vector<std::size_t> taken_;   ///< by target vertex: index of its source vertex
     std::optional<ShareMap> shares_;
-    std::vector<double> place_; ///< by target vertex: its share of the source loop
+    std::vector<double> place_; ///< by target vertex: its position, as a share of the source loop's length
 };
 
 } // namespace

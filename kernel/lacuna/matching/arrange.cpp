@@ -25,10 +25,9 @@ double misfit(const Problem& problem, std::size_t s, std::size_t t, const geomet
     return (fit(problem.source[s].centroid) - problem.target[t].centroid).norm() / reach;
 }
 
-/// Cost of pairing loop s with loop t after the source is moved by `fit`.
-/// @param scale  expected ratio of loop sizes, from the lengths of the anchor loops. The scale of the fit is
-///         not used: the worse the fit, the smaller its scale, so the sizes of other loops would affect the
-///         anchor's alignment.
+/// Cost of pairing source loop s with target loop t after the source is moved by `fit`.
+/// @param scale  expected ratio of loop sizes: that of the lengths of the anchor loops. The scale of the fit
+///         is not used, because it depends on the quality of the fit: it is smaller for worse fits.
 double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
                  double scale, double reach)
 {
@@ -44,7 +43,7 @@ double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geo
 }
 
 /// Finds the cheapest target loop for a source loop. Target loops are tried in the order of their distance
-/// along one axis; the search ends where this distance alone costs more than the cheapest target so far.
+/// along one axis. The search ends when this distance alone costs more than the cheapest target found so far.
 class CheapestTarget {
 public:
     CheapestTarget(const Problem& problem, double reach) : problem_(problem), reach_(reach)
@@ -69,7 +68,8 @@ public:
                         above == lengths_.begin() ? kInfinity : relative(length, *std::prev(above)));
     }
 
-    /// @return  least cost, and the first target with it; infinite if none is allowed
+    /// @return  the least cost, and the first target that has this cost; infinite cost if no target is
+    ///         allowed
     template <class Cost>
     std::pair<double, std::size_t> find(std::size_t s, const geometry::RigidFit& fit, const Cost& cost) const
     {
@@ -94,7 +94,8 @@ private:
     const Problem& problem_;
     double reach_;
     Eigen::Index axis_ = 0;
-    std::vector<std::pair<double, std::size_t>> along_; ///< places of the target loops on the axis
+    std::vector<std::pair<double, std::size_t>> along_; ///< positions of the target loops on the axis, with
+                                                        ///< their numbers; ascending
     std::vector<double> lengths_;                       ///< lengths of the target loops, ascending
 };
 
@@ -109,7 +110,8 @@ std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t an
         if ((i == anchor) != (j == t)) return kInfinity;
         return loop_cost(problem, i, j, alignment.fit, scale, reach);
     };
-    // Lower bounds, cheap ones first: most alignments are rejected before the assignment is solved.
+    // Compare two lower bounds of the score with `limit` before the assignment is solved; most alignments are
+    // rejected here.
     double least = alignment.score;
     for (std::size_t i = 0; i < n && least < limit; ++i)
         if (i != anchor) least += targets.by_length(i, scale) / static_cast<double>(n);
@@ -132,7 +134,8 @@ std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t an
     return result.score < limit ? std::optional(result) : std::nullopt;
 }
 
-/// Keep the two best arrangements with different pairs and, for each, the two best alignments that differ.
+/// Keep the two best arrangements with different pairs and, for each of them, the two best alignments that
+/// `differ()`.
 void keep(const Problem& problem, Arrangement candidate, std::vector<Arrangement>& best)
 {
     const auto same = std::ranges::find(best, candidate.target, &Arrangement::target);

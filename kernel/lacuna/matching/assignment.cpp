@@ -47,7 +47,8 @@ private:
         row_of_[column] = static_cast<int>(row);
     }
 
-    /// Find the shortest path by reduced costs from a row to a free column, and pair along it.
+    /// Find the shortest augmenting path, by reduced costs, from a row to a free column, and change the pairs
+    /// along the path.
     void augment(const std::size_t start)
     {
         std::vector<double> least(n_, kInfinity);
@@ -93,7 +94,7 @@ private:
     std::size_t n_;
     std::vector<int> column_of_, row_of_; ///< -1: not paired
     std::vector<double> row_price_, column_price_;
-    double forbidden_ = 1; ///< a forbidden pair costs more than all the others together
+    double forbidden_ = 1; ///< cost of a forbidden pair: more than all other pairs together
 };
 
 } // namespace

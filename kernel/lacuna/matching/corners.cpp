@@ -12,11 +12,11 @@ using namespace topology;
 
 namespace {
 
-/// Smallest turn of a loop at a corner, where a node must lie [degrees]: above the turn between facets of
-/// coarse curves, below that of obtuse corners.
+/// Smallest turn of a loop at a corner [degrees]. A node must lie at a corner. The value is above the turn
+/// between the facets of coarse curves and below that of obtuse corners.
 constexpr double kCornerAngle = 15;
-/// A corner turns by more than this factor times the turn between the facets next to it. The factor is above
-/// the unevenness of the facets of one curve.
+/// A corner turns by more than this factor times the turn between the facets next to it. The turns between
+/// facets of one curve differ by less than this factor.
 constexpr double kOverSmooth = 1.5;
 
 double turn(const Vec3& in, const Vec3& out)

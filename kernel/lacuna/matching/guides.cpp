@@ -28,8 +28,8 @@ using namespace topology;
 
 namespace {
 
-/// Number of sample points of a section between two side lines, and of a closed section that crosses none. An
-/// affine fit needs four; twice as many average out the facets.
+/// Number of sample points of a section between two side lines, and of a closed section that crosses no side
+/// line. An affine fit needs four points; twice as many reduce the effect of the facets.
 constexpr int kSamplesBetween = 8;
 constexpr int kSamplesRound = 48;
 
@@ -40,13 +40,16 @@ FacetSide side(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 /// A level line of the height on the facets of one connected part of the walls.
 struct LevelLine {
     std::vector<Vec3> points;
-    std::vector<FacetSide> sides;                             ///< side that each point lies on
-    std::vector<std::pair<std::size_t, std::size_t>> anchors; ///< (point, side line) in traversal order
+    std::vector<FacetSide> sides;                             ///< by point: the facet side on which it lies
+    std::vector<std::pair<std::size_t, std::size_t>> anchors; ///< (index of the point, number of the side
+                                                              ///< line that crosses there), in traversal
+                                                              ///< order
     bool closed = false;
-    Vec3 rise{0, 0, 0}; ///< upward direction, summed along the line
+    Vec3 rise{0, 0, 0}; ///< upward direction on the walls, integrated along the line
 };
 
-/// Mean upward direction on the walls at each model point. Directions per facet would jump from row to row.
+/// Mean upward direction on the walls at each model point. The directions of single facets would jump from
+/// facet to facet.
 std::vector<Vec3> ways_up(const OpenVolume& volume, const std::vector<double>& heights)
 {
     const Model& model = volume.model;
@@ -67,8 +70,8 @@ std::vector<Vec3> ways_up(const OpenVolume& volume, const std::vector<double>& h
     return sum;
 }
 
-/// The facets that each level passes through, in their order; empty if some facet has no height. Near linear
-/// in the facets and in the output.
+/// For each level, the facets that it passes through, in their order. Empty if some facet has no height.
+/// Cost: nearly linear in the facets and in the output.
 std::optional<std::vector<std::vector<Triangle>>> facets_at_levels(const OpenVolume& volume,
                                                                    const std::vector<FaceId>& part,
                                                                    const std::vector<double>& heights,
@@ -93,7 +96,7 @@ std::optional<std::vector<std::vector<Triangle>>> facets_at_levels(const OpenVol
     return found;
 }
 
-/// The only level line at height t; empty if there are several or none.
+/// The level line at height t; empty if there are several lines or none.
 /// @param triangles  the facets that the level passes through.
 std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles,
                                     const std::vector<double>& heights, double t, const std::vector<Vec3>& up,
@@ -152,7 +155,7 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
     return line;
 }
 
-/// A facet side on an exact surface.
+/// A facet side whose face has an exact surface.
 struct ExactSide {
     FaceId face;
     Vec2 first, second; ///< parameters at the ends, the lower point first
@@ -178,9 +181,9 @@ std::map<FacetSide, ExactSide> exact_sides(const Model& model, const std::vector
     return found;
 }
 
-/// Project the points of level lines from the facets onto their exact surfaces, because next to a thin void
-/// the facets' sag is large. A point stays if it would move further than its side's length or cannot be
-/// projected.
+/// Project the points of level lines onto the exact surfaces of their faces. For a thin void, the sag of the
+/// facets would be large compared with the void. A point stays in place if it cannot be projected, or if it
+/// would move further than the length of its facet side.
 void put_on_surfaces(const Model& model, const std::vector<FaceId>& part, std::vector<LevelLine>& lines,
                      const RunContext& context)
 {
@@ -219,7 +222,7 @@ void put_on_surfaces(const Model& model, const std::vector<FaceId>& part, std::v
     }
 }
 
-/// Rotate a closed line to start at the anchor whose side line has the lowest number.
+/// Make a closed line start where it crosses the side line with the lowest number.
 void start_at_first_anchor(LevelLine& line)
 {
     if (!line.closed || line.anchors.empty()) return;
@@ -242,7 +245,7 @@ bool are_alike(const LevelLine& a, const LevelLine& b)
 }
 
 /// Sample points of a level line.
-/// @param start  running length at which a closed line without anchors starts.
+/// @param start  running length at which a closed line that crosses no side line starts.
 std::vector<Vec3> sampled(const LevelLine& line, double start = 0)
 {
     const std::vector<double> arc = geometry::arc_lengths(line.points);
@@ -263,7 +266,7 @@ std::vector<Vec3> sampled(const LevelLine& line, double start = 0)
     return samples;
 }
 
-/// Direction of the line through the sections' centroids at each section.
+/// For each section, the direction of the curve through the centroids of all sections.
 std::vector<Vec3> ways_along(const std::vector<LevelLine>& lines)
 {
     std::vector<Vec3> middles;
@@ -275,11 +278,11 @@ std::vector<Vec3> ways_along(const std::vector<LevelLine>& lines)
     return geometry::ways_along(middles, widths);
 }
 
-/// Samples of a closed section, whose start is chosen for the least twist against the section below. The best
-/// sample is found first. The start is then refined until the mean offset along the line is zero, because
-/// starting at a sample would twist each section by up to half a step.
-/// @param onward  rotation of the sweep direction from the section below. Without it, inclined levels would
-///                twist a little against each other at every step of a bend.
+/// Samples of a closed section. The start is chosen for the least twist relative to the section below: first
+/// the best sample, then the place beside it for which the mean offset along the line is zero. Without the
+/// second step, each section would be twisted by up to half a step.
+/// @param onward  rotation of the sweep direction from the section below to this one. Without this rotation,
+///                inclined levels would twist a little at every step of a bend.
 std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below,
                           const Eigen::Matrix3d& onward)
 {
@@ -311,19 +314,20 @@ std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below,
     return sampled(line, start < 0 ? start + length : start);
 }
 
-/// The sections of one wall part.
+/// The sections of one connected part of the walls.
 struct PartSections {
     std::vector<std::vector<Vec3>> points;
     std::vector<Vec3> areas;
     bool closed = false;
 };
 
-/// Complete a section for the fit, and return its area vector. The vector points up the wall, whichever side
-/// the void is on, so that the areas of several parts add up.
+/// Complete a section for the fit.
+/// @return  its area vector, which points up the wall, so that the area vectors of several wall parts can be
+///         added.
 ///
-/// An open section does not fix the size of the void next to it, and a straight one not even its rotation.
-/// Therefore two points off the wall are added to the section, and to its area that of a circle whose
-/// circumference is the distance between the section's ends.
+/// An open section does not determine the size of the void beside it. A straight section does not even
+/// determine the rotation about itself. Therefore two points off the wall are added to an open section, and
+/// its area is increased by that of a circle whose circumference is the distance between the section's ends.
 Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 {
     const Vec3 area = geometry::newell_vector(section);
@@ -339,13 +343,14 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 
 /// Number of points that `complete()` adds to an open section.
 constexpr std::size_t kAdded = 2;
-/// Open walls are extrapolated to the rest of their loop if they extend from their own chord by at least this
-/// share of the loop's extent: extrapolation then at most about doubles the error of the fit.
+/// Walls that form no ring are extrapolated to the rest of their loop if their largest distance from their
+/// own chord is at least this share of the loop's largest distance from that chord. Extrapolation then at
+/// most about doubles the error of the fit.
 constexpr double kReach = 0.5;
 
-/// Whether open walls reach far enough off their chord to extrapolate the rest of their loop.
-/// @param section  section of the open walls at the rim, without the points of `complete()`. @param rim the
-///         whole loop
+/// Whether walls that form no ring can be extrapolated to the rest of their loop, see `kReach`.
+/// @param section  section of the walls at the rim, without the points of `complete()`.
+/// @param rim  the whole loop.
 bool says_the_rest(std::span<const Vec3> section, const std::vector<Vec3>& rim)
 {
     const Vec3 from = section.front(), gap = (section.back() - from).stableNormalized();
@@ -358,15 +363,15 @@ bool says_the_rest(std::span<const Vec3> section, const std::vector<Vec3>& rim)
     return reach > 0 && reach >= kReach * furthest(rim);
 }
 
-/// For each end of an open line, whether it lies on a side line.
+/// For both ends of an open line: whether the end lies on a side line.
 std::pair<bool, bool> ends_anchored(const LevelLine& line)
 {
     if (line.anchors.empty()) return {false, false};
     return {line.anchors.front().first == 0, line.anchors.back().first + 1 == line.points.size()};
 }
 
-/// Walls that end between the rims make some open lines longer than others: trim all to the side lines that
-/// they share.
+/// If walls end between the rims, some open lines are longer than others. Trim all lines to the side lines
+/// that they share.
 /// @return  false if the lines end differently and share fewer than two side lines.
 bool cut_to_shared(std::vector<LevelLine>& lines)
 {
@@ -383,14 +388,16 @@ bool cut_to_shared(std::vector<LevelLine>& lines)
     return true;
 }
 
-/// Sections of one wall part; empty if some level is not a single line like the others.
+/// Sections of one connected part of the walls. Empty if a level is not a single line, or if the lines do not
+/// cross the same side lines.
 PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& part,
                          const std::vector<double>& heights, const std::vector<Vec3>& up,
                          const std::map<FacetSide, std::size_t>& on_line, int count,
                          const RunContext& context)
 {
     std::vector<double> levels;
-    // The outermost levels avoid the facet corners on the rims.
+    // The first and the last level are slightly inside the wall part, because facets have corners on the
+    // rims.
     for (int k = 0; k <= count; ++k)
         levels.push_back(std::clamp(static_cast<double>(k) / count, kRoundoff, 1 - kRoundoff));
     const auto facets = facets_at_levels(volume, part, heights, levels);
@@ -425,8 +432,8 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     return result;
 }
 
-/// Add the sections of a wall part to each source loop that it touches, if the part reaches far enough round
-/// the loop to be extrapolated. Sections of several parts on one loop are merged.
+/// Add the sections of a wall part to each source loop that the part touches, if the part can be extrapolated
+/// (`says_the_rest()`). Sections of several parts on one loop are merged.
 void add_to_loops(const OpenVolume& volume, const std::vector<FaceId>& part, const PartSections& sections,
                   std::vector<LoopSections>& loops)
 {
@@ -487,7 +494,7 @@ Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lin
     }
     if (!parts.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
     for (const PartSections& part : parts) {
-        if (result.closed && !part.closed) continue; // closed sections need no extrapolation; skip open ones
+        if (result.closed && !part.closed) continue; // rings need no extrapolation; ignore other parts
         for (std::size_t k = 0; k < part.points.size(); ++k) {
             result.areas[k] += part.areas[k];
             result.levels[k].insert(result.levels[k].end(), part.points[k].begin(), part.points[k].end());

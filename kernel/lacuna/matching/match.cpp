@@ -25,15 +25,15 @@ using namespace topology;
 
 namespace {
 
-/// Below this confidence the second best alignment is reported too. Its residual is then at most a third
-/// larger than that of the best.
+/// Below this confidence, the second best alignment is reported too. At this limit, its residual is a third
+/// larger than that of the best one.
 constexpr double kUnsure = 0.25;
-/// Below this confidence, an alignment under which the given meshes have equal numbers of sides is preferred
-/// to a better one, unless it rotates more. The better one then fits at most 2.5 times as well. Needed for
-/// ring sectors whose outer end is eight times as far out as the inner one.
+/// Below this confidence, an alignment under which the given meshes match is preferred to the best one,
+/// unless it rotates more. At this limit, the residual of the best one is 2.5 times smaller. A lower value
+/// fails for ring sectors whose outer end is eight times as far out as the inner one.
 constexpr double kUnsureBesideSides = 0.6;
-/// kTie: as above, for an alignment that rotates more than the better one. kAsMuch: difference in rotation
-/// that is ignored, as a share of half a turn. Both are small, so that a plain prism is not twisted to suit
+/// kTie: the same limit for an alignment that rotates more than the best one. kAsMuch: difference in rotation
+/// that is ignored, as a share of half a turn. Both are small, so that a plain prism is not twisted to match
 /// its target mesh.
 constexpr double kTie = 0.1, kAsMuch = 0.05;
 
@@ -103,7 +103,7 @@ private:
         return static_cast<std::size_t>(match_.loops[s].target);
     }
 
-    /// @param arrangement  null for every loop but the anchor
+    /// @param arrangement  the arrangement, for its anchor; null for any other loop
     void align(std::size_t s, const Arrangement* arrangement)
     {
         const std::size_t t = target(s);
@@ -137,7 +137,7 @@ private:
                     .remedy("leave pairs out of match{{ vertices = … }}, or walls out of the roles"));
         }
         const Alignment& best = chosen_[s] = found.front();
-        // A loop that the user reversed runs against the other loops.
+        // A loop that the user reversed runs opposite to the other loops.
         if (!backward_) backward_ = flip ? !best.backward : best.backward;
         match_.loops[s].flipped = !best.backward;
         rate(s, found);
@@ -145,8 +145,8 @@ private:
         sampled_[s] = samples(problem_, s, t, best);
     }
 
-    /// Of the loops for which `counts` is true, the `kNearLoops` that are nearest to loop s, in ascending
-    /// order. Loops are visited in the order of their distances along the axis, until no other can be nearer.
+    /// The `kNearLoops` loops nearest to loop s for which `counts` is true, in the order of their numbers.
+    /// Loops are visited in the order of their distances along the axis, until no other loop can be nearer.
     template <class Counts>
     [[nodiscard]] std::vector<std::size_t> nearest(std::size_t s, const Counts& counts) const
     {
@@ -180,7 +180,8 @@ private:
         return known;
     }
 
-    /// If the shape does not decide the alignment, prefer the one under which both given meshes can be kept.
+    /// If several alignments fit about as well, prefer the one under which the given meshes of both ends
+    /// match best.
     void prefer_given_sides(std::size_t s, std::size_t t, std::vector<Alignment>& found) const
     {
         std::size_t least = unlike_sides(problem_, s, t, found.front());
@@ -201,7 +202,7 @@ private:
                                 source_loop(s)});
     }
 
-    /// Lower the confidence if the next different alignment of a loop fits nearly as well as the best. A loop
+    /// Lower the confidence if a different alignment of a loop fits nearly as well as the best one. A loop
     /// with a hard pair has only one alignment.
     void rate(std::size_t s, const std::vector<Alignment>& found)
     {
@@ -210,16 +211,17 @@ private:
         const auto second = std::ranges::find_if(
             found, [&](const Alignment& other) { return differ(problem_, s, t, best, other); });
         if (second == found.end() || problem_.has_hard(s)) return;
-        // The best one may score worse than the second, because arrangements are ranked by the shapes of all
+        // `best` may have a worse score than `second`, because arrangements are ranked by the shapes of all
         // loops.
         const double sure = sureness(best.score, second->score);
         match_.confidence = std::min(match_.confidence, sure);
         if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
-    /// Slide a loop that is paired by length to the best common fit with the loops nearest to it, unless its
-    /// samples are given nodes. Nearest loops that may still slide themselves take part with their centroids
-    /// only, each with the weight of a loop's samples.
+    /// Improve the start of a loop that is paired by length: the fit includes the loops nearest to it. A loop
+    /// that is measured in given sides stays as it is, because its samples are nodes. Of near loops that are
+    /// paired by length too, only the centroid takes part, with the weight of a loop's samples: their starts
+    /// may still change.
     void slide(std::size_t s)
     {
         const std::size_t t = target(s);
@@ -293,7 +295,7 @@ private:
         match_.hard.push_back(known != problem_.hard.end() && known->second == to);
     }
 
-    /// Vertices on walls cause no splits: walls or corners give them partners.
+    /// Vertices on walls are not `open`: they cause no splits, because walls or corners give them partners.
     [[nodiscard]] ArcLoop arc_loop(const LoopShape& shape) const
     {
         ArcLoop loop{shape.vertices, shape.vertex_arc, shape.corner, {}};
@@ -327,13 +329,14 @@ private:
     Match& match_;
     std::vector<Alignment> chosen_;
     std::vector<bool> aligned_;       ///< by loop: whether it is aligned already
-    std::vector<PointPairs> sampled_; ///< corresponding points of the aligned loops, before loops are slid
+    std::vector<PointPairs> sampled_; ///< corresponding points of the aligned loops, before slide()
     Eigen::Index axis_ = 0;           ///< axis along which the loops extend farthest
-    std::vector<std::pair<double, std::size_t>> along_; ///< places of the loops on the axis
+    std::vector<std::pair<double, std::size_t>> along_; ///< positions of the loops on the axis, with their
+                                                        ///< numbers; ascending
     std::optional<bool> backward_;
 };
 
-/// Loop numbers as in the recipe, from 1.
+/// Loop numbers as in recipes, from 1.
 std::string numbers(const std::vector<int>& list)
 {
     return full_list(list, [](int i) { return formatted("{}", i + 1); });

@@ -24,19 +24,19 @@ struct MatchOptions {
     friend bool operator==(const MatchOptions&, const MatchOptions&) = default;
 };
 
-/// A source loop and the target loop it is swept to.
+/// A source loop and the target loop to which it is swept.
 struct LoopPair {
     int source = -1, target = -1;
-    bool flipped = false; ///< the target loop is traversed against its own direction
+    bool flipped = false; ///< whether the target loop is traversed against its own direction
 };
 
-/// A vertex of one end without a partner on the other end. An edge of the other end is split to make a
-/// partner.
+/// A split of an edge of one end. It makes a partner for a vertex of the other end.
 struct Split {
     VertexId vertex;
-    bool on_target = true; ///< the edge is the target's and the vertex the source's; otherwise the reverse
+    bool on_target = true; ///< true: `edge` belongs to the target and `vertex` to the source; false: the
+                           ///< reverse
     EdgeId edge;
-    double fraction = 0; ///< of the edge's length, in the direction of the edge
+    double fraction = 0; ///< place of the split, as a share of the edge's length from its start
 };
 
 /// Correspondence of loops and vertices between source and target (Algorithm 1).
@@ -44,11 +44,13 @@ struct Match {
     std::vector<topology::Rim> source_loops, target_loops;
     std::vector<LoopPair> loops;
     std::vector<std::pair<VertexId, VertexId>>
-        vertices;              ///< (source, target), source loop by source loop in walking order
-    std::vector<bool> hard;    ///< by vertex pair: fixed by walls or by the user
-    std::vector<Split> splits; ///< vertices still to be created by apply_splits()
+        vertices;              ///< (source, target), in the order of the source loops and of the vertices
+                               ///< along each of them
+    std::vector<bool> hard;    ///< by vertex pair: whether walls or the user fixed the pair
+    std::vector<Split> splits; ///< vertices that apply_splits() has yet to create
     std::string method;
-    double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 if there was only one possibility
+    double confidence = 1; ///< 1 − best residual / second best residual, in [0, 1]; 1 if there is no second
+                           ///< possibility
     std::vector<Message> notes;
     /// side_lines() of the volume when it was matched; empty if match() did not make this match.
     std::optional<std::vector<SideLine>> side_lines;
@@ -56,29 +58,34 @@ struct Match {
 
 /// Match the rims of source and target.
 ///
-/// Algorithm: the paper's Algorithm 1. Method `aligned` (default) keeps the vertex pairs that walls join,
-/// pairs the loops by an assignment, and pairs the other vertices by the best rigid fit over all cyclic
-/// shifts and both directions. Method `nearest` uses the paper's own vertex distances.
+/// This is Algorithm 1 of the paper (docs/bibliography.md). Method `aligned` (default) keeps the vertex pairs
+/// that walls join and assigns the loops to each other. It then pairs the other vertices of two loops by the
+/// cyclic shift and direction with the best rigid fit. Method `nearest` pairs nearest vertices, as in the
+/// paper.
 ///
-/// `aligned` pairs vertices by arc length, pair_by_arc(), where a vertex-to-vertex pairing is not reliable.
-/// This concerns loops with different numbers of vertices, loops with one vertex, loops without corners whose
-/// vertices would twist the void edges by more than 1/32 of the loop, and loops where a corner would be
-/// paired with a smooth vertex. Corners always get a partner, if necessary by splitting an edge of the other
-/// loop; a vertex on a smooth run may stay without one.
-/// @throw InvalidInput   a pair or loop fixed by the user that contradicts the faces.
-/// @throw NotClosed      different numbers of loops; fixed parts that contradict each other; names them.
+/// `aligned` pairs the vertices of two loops by arc length (pair_by_arc()) in these cases:
+/// - the loops have different numbers of vertices, or one vertex each;
+/// - no shift keeps the pairs that walls join;
+/// - a corner would be paired with a smooth vertex, although a corner is available;
+/// - no two corners are paired, and void edges would be twisted by more than 1/32 of the loop.
+///
+/// Smooth vertex: the loop does not turn there. Corners that are on no wall always get a partner, if
+/// necessary by a split of an edge of the other loop; smooth vertices may stay without a partner.
+/// @throw InvalidInput  a pair or loop that the user fixed contradicts the faces.
+/// @throw NotClosed  the ends have different numbers of loops, or fixed parts contradict each other; names
+///         them.
 /// @throw Cancelled
 Match match(const topology::OpenVolume& volume, const MatchOptions& options = {},
             const RunContext& context = {});
 
-/// A volume and its match, whose pairs and loops are complete: `splits` is empty.
+/// A volume and its match. All splits have been made: `Match::splits` is empty.
 struct Matched {
     topology::OpenVolume volume;
     Match match;
 };
 
-/// Make the splits of a match by topology::split_edge(). A split is skipped, with a note, on an edge with a
-/// wall, at an end of an edge, and inside a quad side of a given mesh.
+/// Make the splits of a match by topology::split_edge(). A split is skipped, with a note, if the edge has a
+/// wall, or if the place is at an end of the edge or inside a quad side of a given mesh.
 /// @pre the match is of this volume.
 Matched apply_splits(topology::OpenVolume volume, Match match);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Vertices are numbered through all loops in traversal order; `Ends` gives the loop and position of a number.
+// The vertices of an end are numbered consecutively, loop by loop in traversal order. `Ends` holds the loop
+// and the position of each vertex.
 #include <lacuna/matching/detail/nearest.h>
 
 #include <lacuna/core/error.h>
@@ -18,8 +19,8 @@ using namespace topology;
 
 namespace {
 
-/// Step 7: distances within this many standard deviations of the mean are not outliers, and at least this
-/// share of all distances must lie there. Both values are the paper's.
+/// Step 7: a distance is an outlier if it differs from the mean by more than kDeviations standard deviations.
+/// At least the share kShare of all distances must not be outliers. Both values are the paper's.
 constexpr double kDeviations = 2;
 constexpr double kShare = 0.5;
 
@@ -88,11 +89,12 @@ public:
     }
 
 private:
-    /// An alignment of two loops: it pairs source place i with target place (shift ± i).
+    /// An alignment of two loops: vertex i of the source is paired with vertex shift ± i of the target.
     struct Way {
         std::size_t shift = 0;
         bool backward = true;
-        std::size_t agree = 0;       ///< number of vertices whose own match agrees with it
+        std::size_t agree = 0;       ///< number of vertices whose nearest partner is their partner in this
+                                     ///< alignment
         double distance = kInfinity; ///< sum of the distances of its pairs
     };
 
@@ -101,7 +103,7 @@ private:
         return (source_.at[s] - target_.at[t]).norm();
     }
 
-    /// Whether two vertices may be paired: fixed pairs exclude other partners.
+    /// Whether two vertices may be paired; fixed pairs exclude other partners.
     [[nodiscard]] bool may(std::size_t s, std::size_t t) const
     {
         if (fixed_[s] != kNoIndex) return fixed_[s] == t;
@@ -124,8 +126,8 @@ private:
         return best;
     }
 
-    /// Steps 4 and 5: find the nearest target vertex of each source vertex. If that is not one-to-one, find
-    /// the nearest source vertex of each target vertex that has several partners or none.
+    /// Steps 4 and 5: find the nearest target vertex of each source vertex. If this map is not one-to-one,
+    /// find the nearest source vertex of each target vertex that has several partners or none.
     void match_vertices()
     {
         std::vector<int> met(target_.vertex.size(), 0);
@@ -156,7 +158,7 @@ private:
         }
     }
 
-    /// Step 6: a loop is paired with the loop that most of its vertices vote for.
+    /// Step 6: pair each loop with the target loop on which most partners of its vertices lie.
     void match_loops()
     {
         const std::size_t n = problem_.source.size();
@@ -192,7 +194,7 @@ private:
         }
     }
 
-    /// Step 7: matches whose distance is far from the mean are dropped and paired again.
+    /// Step 7: drop the pairs whose distance is far from the mean; align() pairs their vertices again.
     void validate()
     {
         for (std::size_t l = 0; l + 1 < source_.first.size(); ++l) {
@@ -247,7 +249,7 @@ private:
         return result;
     }
 
-    /// The alignment that most vertices agree on; of equally good ones, that with the least distance.
+    /// The alignment with which most vertices agree; of equals, the one with the least sum of distances.
     static Way best_of(const std::vector<Way>& list)
     {
         return *std::ranges::min_element(list, [](const Way& a, const Way& b) {
@@ -255,8 +257,8 @@ private:
         });
     }
 
-    /// Step 6, the direction. It is the same for all loops, because both ends are seen from the same side.
-    /// Loops of one or two vertices do not determine it; if no other loop does, the area vectors decide.
+    /// Step 6: find the direction, which is the same for all loops. Loops of one or two vertices do not
+    /// determine the direction. If no other loop determines it, the area vectors do.
     void find_direction()
     {
         std::size_t backward = 0, forward = 0;
@@ -274,8 +276,8 @@ private:
         backward_ = problem_.backward.value_or(backward == forward ? low.dot(high) < 0 : backward > forward);
     }
 
-    /// Align a loop as most of its vertex pairs suggest. Vertices that were dropped or unpaired follow the
-    /// others.
+    /// Align a loop so that most of its vertex pairs are kept. Dropped and unpaired vertices get the partners
+    /// that this alignment gives them.
     void align(std::size_t l)
     {
         const std::size_t m = loop_[l], n = source_.count(l);
@@ -290,7 +292,7 @@ private:
         const auto partner = [&](std::size_t i) {
             return target_.first[m] + partner_place(i, n, way.shift, way.backward);
         };
-        // A fixed pair leaves one alignment only.
+        // With a fixed pair, only one alignment is possible.
         const auto first = fixed_.begin() + static_cast<std::ptrdiff_t>(source_.first[l]);
         const bool settled = std::any_of(first, first + static_cast<std::ptrdiff_t>(n),
                                          [](std::size_t t) { return t != kNoIndex; });
@@ -326,7 +328,8 @@ private:
         }
     }
 
-    /// How much closer the matched target vertices are than the nearest other ones, 0…1.
+    /// 1 − sum of the distances of the pairs / sum of the distances to the nearest other target vertices, in
+    /// [0, 1].
     [[nodiscard]] double clearness() const
     {
         double matched = 0, second = 0;
@@ -375,11 +378,13 @@ private:
     const Problem& problem_;
     const Model& model_;
     Ends source_, target_;
-    std::vector<std::size_t> partner_;           ///< target of each source vertex
-    std::vector<std::size_t> fixed_;             ///< target of each fixed source vertex
-    std::vector<std::size_t> nearest_to_source_; ///< result of step 4 i, kept for messages
+    std::vector<std::size_t> partner_;           ///< index of the target vertex of each source vertex
+    std::vector<std::size_t> fixed_;             ///< index of the target vertex of each source vertex in a
+                                                 ///< fixed pair; otherwise kNoIndex
+    std::vector<std::size_t> nearest_to_source_; ///< nearest target vertex of each source vertex (step 4)
     std::vector<std::size_t> loop_;              ///< target loop of each source loop
-    bool backward_ = true;                       ///< target loops are traversed against their own direction
+    bool backward_ = true;                       ///< whether target loops are traversed against their own
+                                                 ///< direction
     Match result_;
 };
 

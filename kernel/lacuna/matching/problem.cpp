@@ -66,19 +66,20 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
         s.erase(-1);
         t.erase(-1);
         if (!s.empty() && !t.empty())
-            problem.backward = true; // the rims run in opposite directions, as the walls orient them
+            problem.backward = true; // walls orient the faces so that the rims of both ends run in opposite
+                                     // directions
         if (s.size() == 1 && t.size() == 1)
             force(problem, *s.begin(), *t.begin(), entity_of(model, part.front()));
     }
 }
 
-/// Number of levels between the rims. Even along a full turn, the direction changes by less than 6° from
+/// Number of intervals between levels. Even along a full turn, the direction changes by less than 6° from
 /// level to level.
 constexpr int kLevels = 64;
 
-/// Points of the first section through the given walls, and the corresponding points of the last one. They
-/// fix the rotation of loops without walls, which the rims of a bend alone do not. Empty if every source loop
-/// has a wall, or if no wall joins the ends.
+/// Points of the first section through the given walls, and the corresponding points of the last section.
+/// They determine the rotation of loops without walls; in a bend, the rims alone do not. Empty if every
+/// source loop has a wall, or if no wall joins the ends.
 PointPairs led_by_walls(const Problem& problem, const std::vector<SideLine>& lines)
 {
     const bool bare = std::ranges::any_of(problem.source, [&](const LoopShape& loop) {
@@ -152,8 +153,8 @@ void read_options(Problem& problem)
     }
 }
 
-/// If all edges of all loops have given sides, and the loops of both ends have the same numbers of sides,
-/// measure the loops in sides, so that nodes correspond.
+/// Measure the loops in sides (count_by_sides()), so that nodes correspond, if all edges of all loops have
+/// given sides and the loops of both ends have the same numbers of sides.
 void count_given_sides(Problem& problem)
 {
     const auto sides_of = [](const std::vector<LoopShape>& loops) {

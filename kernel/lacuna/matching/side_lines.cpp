@@ -23,8 +23,8 @@ using namespace topology;
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Minimum climb of an edge on a side line. The climb is the sine of the angle between the edge and the level
-/// lines, so this is an angle of 30°. Edges that climb less separate the storeys of a stack.
+/// Least climb of an edge on a side line. The climb is the sine of the angle between the edge and the level
+/// lines, so the angle is 30°. Edges that climb less separate walls that are stacked on each other.
 constexpr double kLevel = 0.5;
 
 std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& faces)
@@ -37,7 +37,7 @@ std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& fac
     return points;
 }
 
-/// The height of each side line's points between the rims: the share of the line's length below the point.
+/// The heights of the inner points of side lines: the share of the line's length below the point.
 std::map<Index, double> heights_along(const Model& model, const std::vector<SideLine>& lines)
 {
     std::map<Index, double> heights;
@@ -49,7 +49,8 @@ std::map<Index, double> heights_along(const Model& model, const std::vector<Side
     return heights;
 }
 
-/// The points of triangles, ascending, each numbered in `local`.
+/// The points of triangles, ascending.
+/// @param local  output, by point of the model: the index of the point in the result.
 std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector<Index>& local)
 {
     std::vector<Index> used;
@@ -71,10 +72,10 @@ struct PartHeights {
     std::vector<Triangle> triangles; ///< in indices of `used`
     std::vector<Index> fixed;        ///< indices of `used`
     std::vector<double> values;      ///< their heights
-    bool joins = false;              ///< joins both rims; otherwise there are no heights
+    bool joins = false;              ///< whether the part joins both rims; otherwise it has no heights
 };
 
-/// @param local  -1 for every point of the model, before and after
+/// @param local  scratch memory: -1 for every point of the model, before and after the call
 PartHeights part_heights(const Model& model, const std::vector<FaceId>& part, const std::vector<Index>& low,
                          const std::vector<Index>& high, const std::map<Index, double>& on_lines,
                          std::vector<Index>& local)
@@ -111,7 +112,7 @@ std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::
     const std::vector<Index> low = rim_points(model, volume.faces(Role::source));
     const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
     const std::map<Index, double> on_lines = heights_along(model, lines);
-    std::vector<Index> local(model.points.size(), -1); // by point, its number in the current part
+    std::vector<Index> local(model.points.size(), -1); // by point: its number in the current part
     std::vector<PartHeights> found;
     found.reserve(parts.size());
     for (const std::vector<FaceId>& part : parts)
@@ -138,7 +139,8 @@ std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::
     return heights;
 }
 
-/// A wall edge that climbs, and its cost in a path. `Rises` groups such edges by their lower vertex.
+/// A wall edge that climbs steeply enough for a side line, and its cost in a path. `Rises` groups such edges
+/// by their lower vertex.
 struct Rise {
     EdgeUse use;
     VertexId to;
@@ -146,7 +148,7 @@ struct Rise {
 };
 using Rises = std::map<VertexId, std::vector<Rise>>;
 
-/// Wall edges that may climb: those on neither end.
+/// The edges of walls that belong to no end.
 std::set<EdgeId> edges_between(const OpenVolume& volume)
 {
     std::set<EdgeId> between = edges_of(volume.model, volume.faces(Role::wall));
@@ -163,8 +165,8 @@ std::set<VertexId> rim_vertices(const OpenVolume& volume, Role role)
     return vertices;
 }
 
-/// Whether some vertex allows several paths up or down, so that the shortest must be found: an inner vertex
-/// with more than two edges, or a rim vertex with more than one.
+/// Whether side lines must be chosen among several paths: an inner vertex has more than two of these edges,
+/// or a rim vertex more than one.
 bool has_choices(const OpenVolume& volume, const std::set<EdgeId>& edges)
 {
     std::map<VertexId, int> room;
@@ -179,7 +181,7 @@ bool has_choices(const OpenVolume& volume, const std::set<EdgeId>& edges)
     return false;
 }
 
-/// The wall parts that have some of these edges; heights of other parts are not needed.
+/// The connected parts of the walls that have some of these edges. Heights of other parts are not needed.
 std::vector<std::vector<FaceId>> wall_parts_with(const OpenVolume& volume, const std::set<EdgeId>& edges)
 {
     std::set<FaceId> beside;
@@ -204,8 +206,8 @@ std::vector<double> climbs(const OpenVolume& volume, const std::set<EdgeId>& edg
 
 Rises rises(const OpenVolume& volume, const RunContext& context)
 {
-    // Heights with nine digits give the climb with six digits. If a climb differs from the threshold by less
-    // than this, a thousand times that error, all heights are computed again with full precision.
+    // If heights have nine correct digits, climbs have six. If a climb differs from `kLevel` by less than
+    // kDoubt, a thousand times this error, all heights are computed again with full precision.
     constexpr double kDoubt = 1e-3;
     const Model& model = volume.model;
     const std::set<EdgeId> between = edges_between(volume);
@@ -225,7 +227,7 @@ Rises rises(const OpenVolume& volume, const RunContext& context)
     for (const EdgeId edge : between) {
         double own = *climb++;
         const Edge& e = model[edge];
-        // A void edge from end to end joins matched vertices, so it is a side line however inclined it is.
+        // A void edge from end to end joins matched vertices, so it is a side line even if it climbs little.
         if (e.origin == Origin::made_void && !(std::abs(own) > kLevel))
             own = spans(e.from, e.to) - spans(e.to, e.from);
         if (!(std::abs(own) > kLevel)) continue;
@@ -241,7 +243,7 @@ struct Path {
     double cost = 0;
 };
 
-/// Cheapest path from one vertex up to any target vertex, avoiding the vertices taken.
+/// Cheapest path from a vertex up to any target vertex that passes none of the vertices `taken`.
 std::optional<Path> climb_from(VertexId start, const Rises& graph, const std::set<VertexId>& targets,
                                const std::set<VertexId>& taken, const Model& model)
 {
@@ -345,12 +347,12 @@ std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& con
     while (!waiting.empty()) {
         check_cancelled(context);
         const auto best = std::ranges::min_element(waiting, {}, &Path::cost);
-        std::set<VertexId> gone; // vertices that this line takes from others
+        std::set<VertexId> gone; // vertices of this line; no other line may pass them now
         for (const EdgeUse& use : best->line.uses) gone.insert(use_to(model, use));
         taken.insert(gone.begin(), gone.end());
         lines.push_back(std::move(best->line));
         waiting.erase(best);
-        // A path that loses no vertex is still the cheapest.
+        // Other paths that pass these vertices are searched again; the rest are still the cheapest.
         std::erase_if(waiting, [&](Path& path) {
             const bool loses = std::ranges::any_of(
                 path.line.uses, [&](EdgeUse use) { return gone.contains(use_to(model, use)); });

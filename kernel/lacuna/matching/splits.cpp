@@ -14,7 +14,7 @@ using namespace topology;
 
 namespace {
 
-/// Replace a split edge in all loops by its two parts.
+/// In all loops, replace a split edge by its two parts.
 void go_on(std::vector<Rim>& rims, EdgeId edge, EdgeId behind)
 {
     for (Rim& rim : rims) {
@@ -28,7 +28,7 @@ void go_on(std::vector<Rim>& rims, EdgeId edge, EdgeId behind)
     }
 }
 
-/// Sort the pairs, with their flags, in the order of the source's loops.
+/// Sort the vertex pairs and their `hard` flags in the order of the source's loops.
 void sort_pairs(const Model& model, Match& match)
 {
     std::map<VertexId, std::size_t> place;
@@ -47,7 +47,7 @@ void sort_pairs(const Model& model, Match& match)
     match.hard = std::move(sorted.hard);
 }
 
-/// Length along a loop at a position that may be counted in sides.
+/// True running length on a loop for a running length of its `LoopShape`, which may be measured in sides.
 double length_at(const LoopShape& shape, double place)
 {
     if (!shape.by_sides) return place;
@@ -75,7 +75,8 @@ Matched apply_splits(OpenVolume volume, Match match)
 {
     if (match.splits.empty()) return {std::move(volume), std::move(match)};
     Model& model = volume.model;
-    // Split each edge from its end, so that the part before a split keeps the edge's id.
+    // If an edge is split several times, the split nearest to its end comes first: the part before a split
+    // keeps the edge's id, so that it can be split again.
     std::vector<Split> splits = std::exchange(match.splits, {});
     std::ranges::stable_sort(splits, std::greater{}, &Split::fraction);
     std::map<EdgeId, double> length;
@@ -84,8 +85,8 @@ Matched apply_splits(OpenVolume volume, Match match)
         const double wanted = split.fraction * length[split.edge];
         const std::span<const FaceUse> uses = model.uses_of_edge(split.edge);
         const bool on_wall = uses.size() != 1;
-        // An edge with given nodes is split at a node, so the part in front may have another length than
-        // planned.
+        // An edge with given nodes is split at a node, so the part before an earlier split may not have the
+        // planned length.
         const double in_front = edge_length(model, split.edge);
         const bool at_end = std::min(wanted, in_front - wanted) <= model.tolerance;
         const bool no_node = model[split.edge].points.size() == 2 &&

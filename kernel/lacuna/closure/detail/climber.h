@@ -10,23 +10,24 @@
 
 namespace lacuna::closure {
 
-/// Walks up wall edges from a rim.
+/// Follows wall edges from the rim of one end towards the other end.
 class Climber {
 public:
-    /// @param volume  is referenced and must outlive the climber.
+    /// @param volume  not copied; must outlive the climber.
     explicit Climber(const topology::OpenVolume& volume);
 
-    /// The chain of wall edges upward from a rim vertex, until it reaches an end or no edge continues it.
+    /// The chain of wall edges that leads from a rim vertex away from its end. At each vertex the straightest
+    /// edge is taken. The chain stops at a vertex of an end, or where every edge turns by 45° or more.
     [[nodiscard]] std::vector<topology::EdgeUse> climb(VertexId start) const;
 
     /// Whether exactly one of the two paths along a free loop joins two vertices without passing a vertex of
-    /// an end. That path is then the side line between them, along the rim of the walls. Around a hole in the
-    /// walls both paths join the vertices, and neither is a side line.
+    /// an end. This path follows the rim of the walls and is the side line between the vertices. If the loop
+    /// surrounds a hole in the walls, both paths join the vertices, and neither is a side line.
     [[nodiscard]] bool joined(VertexId from, VertexId to,
                               const std::vector<const topology::Rim*>& loops) const;
 
 private:
-    /// The mean direction of the wall edges that leave a rim vertex.
+    /// The mean direction of the wall edges at a rim vertex, away from the vertex.
     [[nodiscard]] Vec3 off_rim(VertexId at) const;
     [[nodiscard]] Vec3 start_of(topology::EdgeUse use) const;
     [[nodiscard]] std::optional<topology::EdgeUse> straightest(VertexId at, const Vec3& onward,

@@ -6,14 +6,14 @@
 #include <optional>
 #include <vector>
 
-/// Holes without walls in given ends: the enclosed volume depends on whether they are covered or extended to
-/// the other end. Internal to this folder.
+/// Holes without walls in given ends. The enclosed volume depends on whether such a hole is covered or
+/// extended to the other end. Internal to this folder.
 namespace lacuna::closure {
 
 /// A hole of a given end with no wall along its rim.
 struct EndHole {
     topology::Role end; ///< source or target
-    FaceId face;        ///< an adjacent face
+    FaceId face;        ///< a face of the end at the hole's rim
     topology::Rim rim;
 };
 
@@ -24,13 +24,13 @@ std::vector<EndHole> holes_without_walls(const topology::OpenVolume& volume);
 /// For each rim of the source, the share of its edges without a wall.
 std::vector<double> shares_without_walls(const topology::OpenVolume& volume);
 
-/// Close each hole by a void face in the end's surface, which becomes part of that end.
+/// Close each hole by a void face in the end's surface. The void face becomes part of that end.
 /// @throw NotClosed  no face fits a hole's rim.
 std::vector<FaceId> cover_holes(topology::OpenVolume& volume, const std::vector<EndHole>& holes,
                                 const RunContext& context);
 
-/// Volumes enclosed when a volume without a target is closed with its holes covered, and with its holes
-/// extended through [model length³]; empty if that closing fails.
+/// The two volumes that a volume without a target may enclose [model length³]: `covered` with its holes
+/// covered, `through` with its holes extended to the target. Empty if the closing fails.
 struct HoleVolumes {
     std::optional<double> covered, through;
 };

@@ -12,46 +12,50 @@ namespace lacuna::closure {
 /// Whether the user or the program chose the roles of the faces.
 enum class RolesBy { person, finding };
 
-/// The error about an ambiguous bend in a sealed volume, without a remedy; empty if no bend is ambiguous. The
-/// code is "closure.shape_open" if the user chose the roles, otherwise "topology.shape_open". Two kinds of
-/// void faces are ambiguous:
+/// The error about the first void face of a sealed volume whose bend is ambiguous, without a remedy; empty if
+/// there is none. The code is "closure.shape_open" if the user chose the roles, otherwise
+/// "topology.shape_open". Two kinds of void faces are ambiguous:
 ///
-/// - A membrane: a face whose rim does not determine its inside. If the user chose the roles, a membrane is
-///   the missing end, which closing interpolates (Algorithm 4). It is then ambiguous only in two cases: the
-///   membrane differs from the thin plate over the same rim; or straight sides suggest several flat faces.
-/// - A bent void face whose rim also lies on other quadrics that are far from the face.
+/// - A membrane: a face whose rim does not determine its inside. If the user chose the roles, the membrane is
+///   the missing end, and closing interpolates it (Algorithm 4). In that case it is ambiguous only if it
+///   differs from the thin plate over the same rim, or if straight sides suggest several flat faces.
+/// - A bent void face that is far from another quadric through its rim.
 ///
-/// A membrane over a rough rim is not ambiguous: the rim's points are off a plane by at most a twentieth of
-/// the rim's diameter, and smooth faces over it enclose the same volume to 2 %.
+/// A membrane over a rough rim is not ambiguous. Rough rim: its points are off a plane by at most a twentieth
+/// of its diameter, and different smooth faces over it change the enclosed volume by at most 2 %.
 std::optional<Message> guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
 
-/// A face of `model` with a hole that was closed in the face's plane, although an end far from the face is
-/// missing too: the hole may extend to that end. Invalid if there is no such face, or if the facets' normals
-/// point into the void, as in a counterbore.
+/// A face of `model` with a hole that was closed in the face's plane, while an end that does not touch the
+/// face is missing too. The hole may extend to that end. Invalid if there is no such face, or if the normals
+/// of the given faces point into the void, as in a counterbore.
 /// @param given  the faces of `model` that come first in the volume
 FaceId open_hole(const topology::Model& model, const std::vector<FaceId>& given,
                  const topology::OpenVolume& sealed, const Closure& closure);
 /// The error "topology.shape_open" about the hole that `open_hole()` finds, without a remedy.
 Message guess_of_hole(const topology::Model& model, FaceId face);
 
-/// Add a note. It is listed among the assumptions if the alternative changes the volume enough.
-/// @param share  relative change of the volume under the alternative
+/// Add a note. If `share` exceeds 2 %, the note is also listed in `Closure::assumptions`.
+/// @param share  relative change of the volume if the assumption is wrong
 void assume(Closure& closure, Message note, double share);
 
-/// Note an assumption about missing walls next to a missing end. The uncertain share of the volume is
-/// estimated as the volume of a bulge of these walls by a quarter of their width. The width of a wall is
-/// taken as 4 area / perimeter.
+/// Note an assumption about missing walls next to a missing end. The uncertain volume is that of a bulge of
+/// each missing wall by a quarter of its width, where the width is 4 area / perimeter.
 void assume_walls(const topology::OpenVolume& sealed, const Message& note, Closure& closure);
 
-/// Note holes of given faces that void faces close in their planes: a pocket that is missing entirely leaves
-/// no other trace. The note is an assumption if a pocket as deep as its mouth is wide would change the volume
-/// enough. Two more cases are noted: an end that covers a hole of given faces whose normals point into the
-/// void, and a void face that is the smaller part of a ball.
+/// Note three kinds of assumptions (see `assume()` for their effect on the volume):
+/// - A hole of a given face is closed by a wall in the face's plane, although a pocket may be missing behind
+///   it. The assumed pocket is as deep as its mouth is wide.
+/// - The normals of the given faces point into the void, and a void face that belongs to an end covers a hole
+///   of a given face.
+/// - The normals of the given faces point into the void, and a void face is the smaller part of a ball.
 void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& given,
                        const topology::OpenVolume& sealed, Closure& closure);
 
-/// Note void faces over rims that do not determine their inside, those over rough rims and, if the roles were
-/// found, flat ones in a circle.
+/// Note assumptions about void faces:
+/// - membranes;
+/// - faces over rough rims;
+/// - if the program found the roles: flat faces in circles, and other faces whose rim does not determine how
+///   many faces are missing.
 void note_open_rims(const topology::OpenVolume& sealed, RolesBy by, Closure& closure);
 
 /// Note void faces between two flat rims of given faces: shoulders and whole branches may be missing there as

@@ -8,12 +8,14 @@
 
 namespace lacuna::closure {
 
-/// The reading of a hollow whose bottom blends smoothly into its walls; the blend is split.
+/// The reading of a hollow whose bottom blends smoothly into its walls: the bottom is cut from the walls
+/// across the blend (`part_bowl()`). Empty for other faces.
 std::optional<Reading> read_bowl(const topology::Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context);
 
-/// The reading of a tube with one fully open end and, at the other, a floor round a narrower bore: a
-/// counterbore without its bore. The floor is the source, together with the flat face that closes the bore.
+/// The reading of a counterbore without its bore: a tube that is open at one end and has an annular floor at
+/// the other. The source is the floor together with the flat face that closes the mouth of the bore. Empty
+/// for other faces.
 std::optional<Reading> read_floor(const topology::Model& model, const std::vector<FaceId>& faces,
                                   const RunContext& context);
 

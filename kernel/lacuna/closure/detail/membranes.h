@@ -7,14 +7,15 @@
 
 namespace lacuna::closure {
 
-/// The membranes among some void faces: faces over a non-planar rim that does not determine their inside.
-/// Four-sided faces, which are blended from side to side, are no membranes. Nor are faces on a quadric that
-/// their rim determines, such as the mouth of a keyway on its shaft.
+/// The membranes among some void faces. Membrane: a void face over a non-planar rim that does not determine
+/// the inside of the face. No membranes are four-sided faces, which are blended from side to side, and faces
+/// on a quadric that their rim determines, such as the mouth of a keyway on its shaft.
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 bool is_membrane(const topology::Model& model, FaceId face);
 
 /// Whether the rim determines how a face bends: the inside of the face is near the only quadric through the
-/// rim, or, if there are many, near a sphere, circular cylinder, cone or pair of planes among them.
+/// rim. If many quadrics go through the rim, it is near a sphere, a circular cylinder, a cone or a pair of
+/// planes among them.
 bool bends_as_rim(const topology::Model& model, FaceId face);
 
 /// Whether all points of a face are close to its plane, compared with the extent of the face.

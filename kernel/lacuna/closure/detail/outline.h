@@ -10,13 +10,16 @@
 
 namespace lacuna::closure {
 
-/// Boundary points of a face in its triangulation plane; the points of a seam are listed twice.
+/// Boundary points of a face in the plane in which the face is triangulated. Points of a seam are listed
+/// twice.
 struct Outline {
-    std::vector<Index> model_point; ///< by boundary point; empty if these are not points of the model
+    std::vector<Index> model_point; ///< by boundary point: its index in the model; empty if the points are
+                                    ///< not in the model
     std::vector<Vec2> flat;
     std::vector<std::vector<Index>> loops;
 
-    /// Add a loop. @param points  indices of its points in the model; empty: they are no points of the model
+    /// Add a loop.
+    /// @param points  indices of its points in the model; empty if they are not in the model
     void add_loop(const std::vector<Vec2>& places, const std::vector<Index>& points = {})
     {
         std::vector<Index>& loop = loops.emplace_back(places.size());

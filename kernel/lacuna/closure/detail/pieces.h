@@ -20,20 +20,22 @@ namespace lacuna::closure {
 /// A face between two pieces.
 struct Partition {
     FaceId face;
-    /// Its rim, as the skin of the piece behind it uses the edges; the other piece uses them reversed. Void
-    /// edges across gaps of the skin are excluded.
+    /// The edges of the face's rim, in the directions in which the skin of the piece behind the face uses
+    /// them (behind a cutting plane: on the side opposite to its normal). The piece in front uses them
+    /// reversed. Void edges across gaps of the skin are excluded.
     std::vector<topology::EdgeUse> behind;
 };
 
-/// The split faces of a volume, and its partitions.
+/// A volume with split faces, and the partitions between its pieces.
 struct PartedVolume {
     topology::OpenVolume volume; ///< partitions have the role of walls
     std::vector<Partition> partitions{};
     std::optional<geometry::Plane> plane{}; ///< common plane of all partitions, if there is one
-    bool stacked = false; ///< whether pieces behind a partition are one level above those in front
+    bool stacked = false; ///< whether pieces get levels: 0 if no piece is in front, otherwise one more than
+                          ///< the pieces in front
 };
 
-/// Split the faces of a volume along walks in a plane; the parts of a face have its role.
+/// Split the faces of a volume along the lines where a plane crosses them. The parts of a face keep its role.
 topology::WalkImprint imprint(topology::OpenVolume& volume, const std::vector<topology::SectionWalk>& walks,
                               const geometry::Plane& plane, const RunContext& context);
 
@@ -43,7 +45,7 @@ topology::WalkImprint imprint(topology::OpenVolume& volume, const std::vector<to
 /// @throw NotSweepable "closure.cut_apart"  both sides of a partition belong to one piece.
 std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context);
 
-/// Cut every piece that a plane crosses. A piece that `cut` misses stays as it is.
+/// Cut every piece that a plane crosses. A piece for which `cut` throws "closure.cut_misses" stays as it is.
 /// @param reach  pieces outside this box stay as they are; null: none is left out.
 /// @throw  the errors of `cut`, except "closure.cut_misses".
 /// @note  O(points) for each piece that the plane does not cross.
@@ -54,7 +56,7 @@ std::vector<StepPiece> cut_each(std::vector<StepPiece> pieces, const geometry::P
 /// Sort planar loops, given by their points, into regions: an outer loop first, then its holes.
 std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<Vec2>>& loops);
 
-/// Add a flat partition bounded by loops of edges (the outer first).
+/// Add a flat partition bounded by loops of edges, the outer loop first.
 FaceId add_partition(topology::Model& model, const std::vector<std::vector<topology::EdgeUse>>& loops,
                      const geometry::Plane& plane, const std::string& name, const RunContext& context);
 /// The next free name of a partition: `cut_1`, `cut_2` and so on.

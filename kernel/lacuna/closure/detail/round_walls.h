@@ -10,14 +10,17 @@
 
 namespace lacuna::closure {
 
-/// Add missing round walls between free loops: the wall of a bore, of a shaft or of a cone between two rims
-/// on one axis.
+/// Add missing round walls between free loops, such as the wall of a bore or of a shaft. Each wall joins two
+/// rims on one axis with equal radii.
 ///
-/// A rim needs such a wall in two cases: a flat face in the rim would lie in the plane of the given faces
-/// round it; or the rim is not planar and the given faces round it do not continue the wall. Rims on one axis
-/// with equal radii are paired along the axis. A rim left over is paired with a rim that a flat face could
-/// also close. Rims of two unconnected parts are paired too. Loops on the wall between two rims, such as those
-/// of branches, are holes of that wall.
+/// A rim needs a wall in two cases:
+/// - a flat face in the rim would lie in the plane of the given faces round it;
+/// - the rim is not planar, and no given face at the rim is a part of the round wall.
+///
+/// Rims that need a wall are paired along their common axis. If their number is odd, one rim that a flat face
+/// could close as well is added, so that the walls are shortest. If no rim needs a wall, the two rims of two
+/// unconnected parts are paired. Loops on the wall between two rims,
+/// such as those of branches, are holes of that wall.
 /// @return  the free loops that are left.
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);
@@ -25,27 +28,36 @@ std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology:
 /// Radius of a flat face whose only loop is a circle; empty for any other face.
 std::optional<double> radius_of_disc(const topology::Model& model, FaceId face);
 
-/// Whether a flat face in a rim would lie in the plane of all given faces round it. If so, a wall is missing
-/// there.
+/// Whether a flat face in a rim would lie in the plane of all given faces round the rim. If so, a wall is
+/// missing there.
 bool continues_given_planes(const topology::Model& model, const topology::Rim& rim);
 
-/// Whether a void face joins two rims of different lengths, of which one needs a wall. A straight wall that
-/// ends in a flat face is then as likely.
+/// Whether a curved void face joins two rims of different lengths, and a flat face would continue the given
+/// planes at exactly one of them. Then a straight wall from that rim, with a flat face at its end, is as
+/// likely as the curved face.
 bool is_ring_at_step(const topology::Model& model, FaceId face);
 
-/// Whether a void face joins two rims and is neither round nor straight from rim to rim.
+/// Whether a void face joins two rims and is neither curved like a sphere, cylinder or cone, nor straight
+/// from rim to rim.
 bool is_bent_ring(const topology::Model& model, FaceId face);
 
-/// Add a straight wall from each flat rim that needs one to the nearest plane of another flat rim whose given
-/// faces run along that wall. The image of the rim in this plane then bounds the face that is missing there.
-/// This closes a bore that is missing together with the face at its mouth, or a shaft with the face at its
-/// shoulder.
-/// @return  the free loops that are left, the images among them.
+/// Close rims in whose plane the given faces continue (see `continues_given_planes()`) by straight walls.
+///
+/// The wall of such a rim is perpendicular to the rim's plane and ends in the plane of another flat rim. This
+/// is the nearest one with these properties:
+/// - the planes of both rims are parallel;
+/// - the given walls at the other rim are perpendicular to the planes;
+/// - the image of the rim in the plane of the other rim lies inside the other rim or encloses it.
+///
+/// In that plane, the image and the other rim bound a missing flat face. Example: a bore that is missing
+/// together with the face around its mouth.
+/// @return  the free loops that are left; the image of a rim takes the place of the rim.
 std::vector<topology::Rim> add_straight_walls(FlatFilling& filling, std::vector<topology::Rim> loops,
                                               const RunContext& context);
 
-/// Fill a rim with a face on the circular cylinder or cone through it, unless the rim runs round the axis of
-/// that surface. An arc of the rim determines the surface; the facets are made on the unrolled surface.
+/// Fill a rim with a face on the circular cylinder or cone through the rim, unless the rim runs round the
+/// axis of that surface. The surface is found from an edge of the rim that is an arc about its axis. The
+/// facets are made on the unrolled surface.
 /// @return  empty if the rim lies on no such surface.
 std::optional<VoidFilling> fill_round_patch(const topology::Model& model, const topology::Loop& loop,
                                             const RunContext& context);

@@ -17,18 +17,21 @@ struct Sealed : SealedVolume {
 
 /// One void, and the role candidates that enclose it.
 struct Void {
-    /// Cost of its likeliest candidate, plus the cost of bent void faces.
+    /// Cost of the void: that of its likeliest candidate, plus the cost of bent void faces.
     double cost = 0;
     topology::RoleCandidate first;             ///< the candidate that `sealed` was sealed with
     Sealed sealed;                             ///< the result of sealing with `first`
-    std::vector<topology::RoleCandidate> ways; ///< role candidates, the likeliest first
-    std::vector<topology::RoleCandidate> bent; ///< other candidates, which would need an ambiguous bend
-    bool untold = false;                       ///< whether the rims of a void face do not determine its bend
-    bool fills_flat_loops = false;             ///< whether a candidate fills only flat free loops
-    /// An end that was moved together with its holes without walls; invalid if there is none.
+    std::vector<topology::RoleCandidate> ways; ///< candidates that enclose this void, likeliest first
+    std::vector<topology::RoleCandidate> bent; ///< candidates that enclose this void too, but with an
+                                               ///< ambiguous bend
+    bool untold = false;                       ///< whether the bend of a void face is ambiguous, see
+                                               ///< `guess_of_bent()`
+    bool fills_flat_loops = false;             ///< whether a candidate only fills flat free loops
+    /// A given end that was moved to the missing end together with its holes without walls; invalid if there
+    /// is none.
     FaceId through;
-    bool channel = false; ///< sealed by two congruent ends
-    std::string filled;   ///< how it was sealed without roles, in words for the user
+    bool channel = false; ///< whether it was sealed by two congruent ends
+    std::string filled;   ///< how it was sealed, in words for the user; empty if by a role candidate
 };
 
 /// Some faces sealed with given roles; empty if that fails.
@@ -36,7 +39,7 @@ struct Void {
 std::optional<Sealed> seal(const topology::Model& model, const topology::Roles& roles,
                            const RunContext& context);
 
-/// Whether volumes are equal within a tolerance that exceeds the effect of the facets' sag.
+/// Whether two volumes are equal within a tolerance. The tolerance exceeds the effect of the facets' sag.
 bool same_volume(double a, double b);
 
 /// The candidates, sealed and grouped by the volume they enclose.
@@ -44,14 +47,18 @@ bool same_volume(double a, double b);
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
                         std::size_t most, const RunContext& context);
 
-/// Use the voids that are sealed by moving a given end to the missing one (`move_ends()`). Voids that role
-/// candidates found too are kept alone. If there are none, the voids with a moved end replace all others, or
-/// are added to them if a rim without walls was extended.
+/// Combine the voids found so far with those that are sealed by moving a given end to the missing one
+/// (`move_ends()`). The first rule that applies:
+/// 1. If there is no void with a moved end, nothing changes.
+/// 2. If voids were found in both ways, only these are kept.
+/// 3. If no rim without walls was extended, the voids with a moved end replace all others.
+/// 4. Otherwise they are added to the others.
 void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
                 const RunContext& context);
 
-/// Add a void closed by flat faces. If the same void is known already, the closing with fewer faces is kept.
-/// Afterwards only voids that are about as likely as the best remain.
+/// Add a void that was closed without a role candidate. If the same void is known already, the new closing
+/// replaces an ambiguous one or one with more void faces. Afterwards only voids that are about as likely as
+/// the best remain.
 void add_filled(std::vector<Void>& found, Void filled);
 
 } // namespace lacuna::closure

@@ -8,11 +8,15 @@
 
 namespace lacuna::closure {
 
-/// Give walls that meet an end smoothly, directly or through each other, the role of that end.
+/// Give walls that meet an end smoothly the role of that end, and so on for walls that meet these walls
+/// smoothly.
 ///
-/// A cell between an end and a wall tangent to it would have an angle near 180°. An end stays as it is in any
-/// of these cases: it has a void face or a given mesh, or would include one; it would include or touch the
-/// opposite end; it would gain or lose a loop; it would be deeper than wide.
+/// A cell between an end and a wall tangent to it would have an angle near 180°. An end is not extended in
+/// any of these cases:
+/// - it has a void face or a face with a given mesh, or would get one;
+/// - it would include or touch the opposite end;
+/// - its number of loops would change;
+/// - it would be deeper than wide.
 /// @param sealed  watertight and oriented; its roles change.
 /// @return  the walls that became part of an end.
 /// @throw Cancelled

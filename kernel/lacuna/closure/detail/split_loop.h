@@ -8,12 +8,13 @@
 
 namespace lacuna::closure {
 
-/// A free loop, split into the loops of the faces that are missing there.
+/// The loops into which a free loop was split, one for each face that is missing there.
 struct SplitLoop {
     std::vector<topology::Loop> parts; ///< all but the last are planar
-    bool channel = false;              ///< whether the first two parts are congruent ends
-    /// Whether a planar part has only two straight given edges, which meet or are parallel. These are always
-    /// coplanar, so they do not show that a flat face is missing.
+    bool channel = false;              ///< whether the loop is that of a channel: the first two parts are its
+                                       ///< congruent ends
+    /// Whether the given edges of a planar part are only two straight edges that meet or are parallel. Two
+    /// such edges are always coplanar, so they do not show that a flat face is missing.
     bool is_assumed = false;
 };
 

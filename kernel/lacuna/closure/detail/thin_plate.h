@@ -10,13 +10,13 @@
 
 namespace lacuna::closure {
 
-/// The surface of least bending energy through a rim, as heights over a plane: a thin-plate spline, a sum of
-/// r² log r terms centred on the rim plus a plane. A membrane minimises area instead. Both are as smooth as
-/// their rim; where they differ, the rim does not determine the inside.
+/// The surface of least bending energy through a rim, as heights over a plane. It is a thin-plate spline: a
+/// plane plus r² log r terms, where r is the distance from a point of the rim. It serves as the alternative
+/// to a membrane, which minimises area: where the two surfaces differ, the rim does not determine the inside.
 struct ThinPlate {
-    std::vector<Vec2> places; ///< divided by `unit`
+    std::vector<Vec2> places; ///< points of the rim in the plane, divided by `unit`
     double unit = 1;          ///< [model length]
-    Eigen::VectorXd weight;   ///< for each place, then of the terms 1, x and y
+    Eigen::VectorXd weight;   ///< weights of the r² log r terms of all places, then of the terms 1, x and y
 
     /// Height at a place of the plane [model length].
     [[nodiscard]] double height(const Vec2& place) const;

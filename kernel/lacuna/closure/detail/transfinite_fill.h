@@ -7,9 +7,10 @@
 
 namespace lacuna::closure {
 
-/// Algorithm 6, or Algorithm 5 if two opposite sides are the same edge (a seam): a patch between four sides
-/// over arc length, see `fill()`.
-/// @param sides  four, in walking order
+/// Fill a loop of four sides with a patch that is parametrised by the arc length of the sides. This is
+/// Algorithm 6 of the paper (docs/bibliography.md), or Algorithm 5 if two opposite sides are the same edge (a
+/// seam); see `fill()`.
+/// @param sides  the four sides, in the order of the loop
 /// @param follower  null, or the motion that the patch follows, see `fill()`.
 /// @throw InvalidInput  the patch folds.
 VoidFilling fill_transfinite(const topology::Model& model,

@@ -8,16 +8,16 @@
 
 namespace lacuna::closure {
 
-/// Mean turn of the skin towards the void at each edge between two faces [degrees]: positive if the interior
-/// angle of the void exceeds 180°, 0 for free edges and seams.
+/// For each edge, the angle between its two faces minus 180°, measured through the void and averaged along
+/// the edge [degrees]: positive at a concave edge of the void. 0 for free edges and seams.
 ///
-/// The side of the void is found for each connected part of the skin: by the side of its ends on which its
-/// walls stand, by the position of the opposite ends, or else by the part's centre; see
+/// For each connected part of the skin, the side of the void follows from the side of its ends on which its
+/// walls lie, otherwise from the position of the opposite ends, otherwise from the part's centre; see
 /// `parts_facing_void()`.
 /// @note  O(facets · parts).
 std::vector<double> concave_turns(const topology::OpenVolume& volume, const RunContext& context);
 
-/// The result of `concave_turns()` and, by face, whether its facets face the void.
+/// The result of `concave_turns()`, and which faces are oriented towards the void.
 struct SkinTurns {
     std::vector<double> concave;
     std::vector<bool> faces_void;

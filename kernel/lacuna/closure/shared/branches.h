@@ -10,12 +10,12 @@
 namespace lacuna::closure {
 
 /// A direction counts as parallel to a body's axis if the sine of the angle between them is below this (6°).
-/// A branch that leaves the body at a smaller angle has no well-defined cut.
+/// For a branch that leaves the body at a smaller angle, the line where the cuts meet is not well defined.
 inline constexpr double kAlongAxis = 0.1;
 
-/// Whether a side branch leaves a wall of the volume. A branch starts at its mouth, a closed line of concave
-/// edges between walls. The mouth separates the skin into the main body, which has two ends (given or
-/// missing), and the branch, which has an end too or is deeper than half the radius of its mouth.
+/// Whether a volume has a side branch. Mouth of a branch: a closed line of concave edges between walls that
+/// separates the skin into the main body and the branch. The main body has two ends, given or missing. The
+/// branch has an end, or is deeper than half the radius of its mouth.
 bool has_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 
 /// Cut a volume at its side branches into arms that can be swept: a tee is cut into three arms. A manifold
@@ -27,12 +27,13 @@ bool has_branches(const topology::OpenVolume& volume, const RunContext& context 
 /// cut again, and so are branches of branches.
 ///
 /// If branches leave to several sides, or at an angle to an edge that crosses an end of the main body, the
-/// walls of the main body are first split by planes along its axis. A plane runs through the centre of each
-/// mouth and of each such edge. The new edges determine how rims that are bent at mouths correspond.
+/// walls of the main body are first split by planes along its axis. One plane runs through the centre of each
+/// mouth and of each such edge. Arms have ends that are bent along the mouths; the new edges determine which
+/// points of two such ends correspond.
 /// @return  pieces in the order of the cuts; the volume itself if it has no branches.
-/// @throw NotSweepable "closure.branches"  the main body has missing walls at the mouth, or more than two
-///         ends; mouths are next to each other (names where to cut by hand); a branch reaches beyond the side
-///         of the main body. Or the errors of `cut_by_plane()`.
+/// @throw NotSweepable "closure.branches"  the main body has missing walls at a mouth, or more than two ends;
+///         mouths are adjacent (the remedy names where to cut); or a branch reaches beyond the side of the
+///         main body, so that an end of the branch lies next to the mouth. Or the errors of `cut_by_plane()`.
 /// @note  O(branches · facets log facets).
 std::vector<StepPiece> cut_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 

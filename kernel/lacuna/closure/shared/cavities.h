@@ -9,18 +9,18 @@
 
 namespace lacuna::closure {
 
-/// A hollow of a solid whose faces make an open volume, or an inner void. An inner void is a hollow without a
-/// mouth; it is listed even if it has no ends to sweep between.
+/// A hollow of a solid that can be used as an open volume, or an inner void. Inner void: a hollow without a
+/// mouth. It is listed even if it has no ends to sweep between.
 struct Cavity {
     std::string kind;          ///< "pocket", "bore", "slot" or "inner void"
-    std::vector<FaceId> faces; ///< ascending: the `faces` to name for an open volume
+    std::vector<FaceId> faces; ///< the faces to name for an open volume, ascending
     topology::VolumeClass value = topology::VolumeClass::closed;
-    double volume = 0; ///< enclosed once sealed [model length³]
+    double volume = 0; ///< volume enclosed when the cavity is sealed [model length³]
 };
 
 /// The cavities of the solids of a model, in the order of their first faces. Candidates are the hollows of
-/// topology::hollows(), and each set of hollows that share whole rims, merged. A candidate is a cavity if it
-/// has no mouth, or if find_readings() finds exactly one void.
+/// topology::hollows(). Hollows that share whole rims are also merged into one further candidate. A candidate
+/// is a cavity if it has no mouth, or if find_readings() finds exactly one void.
 /// @throw Cancelled
 /// @note  One call of find_readings() per candidate.
 std::vector<Cavity> cavities(const topology::Model& model, const RunContext& context = {});

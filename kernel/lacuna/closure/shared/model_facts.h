@@ -18,8 +18,10 @@ namespace lacuna::closure {
 struct ModelFacts {
     std::vector<topology::FaceFacts> faces;                 ///< for each face
     std::vector<std::optional<topology::RoundShape>> round; ///< for each face
-    std::vector<std::optional<topology::ConeShape>> cone;   ///< for each face that is no cylinder or sphere
-    std::vector<bool> part_closed;                          ///< by connected part: it has no free edge
+    std::vector<std::optional<topology::ConeShape>> cone;   ///< for each face: empty for cylinders and
+                                                            ///< spheres
+    std::vector<bool> part_closed;                          ///< by connected part: whether the part has no
+                                                            ///< free edge
     std::vector<topology::Gap> gaps;
     std::vector<Cavity> cavities;
     std::vector<std::size_t> cavity_of; ///< by face: index of the smallest cavity that it belongs to;
@@ -27,10 +29,11 @@ struct ModelFacts {
 };
 
 /// @throw Cancelled
-/// @note  Costs as much as `cavities()` and `topology::gaps()`.
+/// @note  Cost: that of `cavities()` and `topology::gaps()`.
 ModelFacts model_facts(const topology::Model& model, const RunContext& context = {});
 
-/// Where a face belongs: the kind of its cavity, "outer skin" or "open shell". Valid as long as `facts`.
+/// The place of a face: the kind of its cavity, "outer skin" or "open shell". The text is valid as long as
+/// `facts` exists.
 const char* use_of(const ModelFacts& facts, FaceId face);
 
 } // namespace lacuna::closure

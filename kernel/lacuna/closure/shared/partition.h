@@ -13,11 +13,12 @@ namespace lacuna::closure {
 /// Whether the walls of a sealed volume can be meshed between its ends.
 using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 
-/// Receives the pieces of a partition. @return  whether no other partition is needed.
+/// Receives the pieces of a partition; returns whether the partition is accepted, so that no other one is
+/// needed.
 using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 
-/// Find partitions of a sealed volume that no single sweep fills, into pieces that can be swept, best first.
-/// A partition is made only if `take` needs another one.
+/// Divide a sealed volume that no single sweep fills into pieces that can be swept. Several partitions are
+/// made, the best first, until `take` accepts one.
 ///
 /// Candidate cuts are those of `cut_planes()`:
 /// - the plane of a flat face next to concave edges, only in the regions of the plane that adjoin these
@@ -26,23 +27,26 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - planes midway between features;
 /// - planes through the axes of bores that cross each other or leave through a bent face.
 ///
-/// The best cut of a piece leaves the least length still to cut (`length_to_cut()`) in pieces without ends,
-/// which are then cut in turn. A piece has ends if `read_ends()` finds them, or if its closed skin has a
-/// sweep direction, and `can_sweep` accepts them. Cutting stops where no cut reduces that length. A piece
-/// without ends that has no length left to cut is divided: at its middle, across an edge between coplanar
-/// faces, or at a centre, that is, by three planes at right angles through the centre of a sphere or the apex
-/// of a cone. A cut is undone if none of the resulting pieces has ends or is divided.
+/// Cutting is recursive: pieces without ends are cut in turn. A piece has ends if `read_ends()` or a sweep
+/// direction of its closed skin gives ends that `can_sweep` accepts. The best cut of a piece leaves the least
+/// length to cut (`length_to_cut()`) in pieces without ends. Cutting stops where no cut reduces this length.
+/// A piece without ends that has no length to cut is divided in the first of these ways that succeeds:
+/// - at its middle (`midpoint_blocks()`);
+/// - across an edge between coplanar faces;
+/// - at a centre: by three perpendicular planes through the centre of a sphere or the apex of a cone.
+///
+/// A cut is undone if none of the resulting pieces has ends or is divided.
 ///
 /// If the best cuts leave a piece without ends, or if the pieces cannot be meshed together, there are other
 /// partitions, in this order:
-/// - the volume as one piece with ends along an axis, after the rounds at the rims of these ends were divided
-///   (`split_round_rims()`);
-/// - the volume cut in steps between all faces that face along an axis (`cut_steps()`);
+/// - the volume as one piece with the faces that face along an axis as ends, after the rounds at the rims of
+///   these ends were divided (`split_round_rims()`);
+/// - the volume with the faces that face along an axis as ends, cut at their steps (`cut_steps()`);
 /// - divided at its middle (`midpoint_blocks()`);
 /// - divided at a centre, if no cut was made and no length is left to cut;
-/// - the pieces of the best cuts, if some have no ends. Those that still have a length to cut are divided at
-///   their middles where that is possible. If no cut helps, this is the volume itself, with ends other
-///   than its roles give, if there are any;
+/// - the pieces of the best cuts, if some have no ends. Pieces that still have a length to cut are divided at
+///   their middles where that is possible. If no cut helps, the only piece is the volume itself, with other
+///   ends if there are any;
 /// - the pieces of up to five other cuts of the volume, each cut on in the same way.
 /// @param least  the least distance between a cut and an edge beside it, unless the volume itself is that
 ///               thin there [model length].

@@ -11,7 +11,7 @@
 
 namespace lacuna::closure {
 
-/// The subject of a message: words, and the entity they refer to, as in "the cover of a hole of face 3".
+/// The subject of a message: words followed by an entity, such as "the cover of a hole of face 3".
 struct Subject {
     std::string words;
     std::vector<NamedEntity> entity{};
@@ -20,15 +20,15 @@ struct Subject {
 /// Facets of a void face, not yet in the model.
 struct VoidFilling {
     std::vector<topology::Loop> loops;
-    std::vector<Vec3> points;        ///< new points; index i stands for model point model.points.size() + i
+    std::vector<Vec3> points;        ///< new points; point i gets the model index model.points.size() + i
     std::vector<Triangle> triangles; ///< indices of model points; oriented like the loops
     topology::Geometry geometry = topology::Geometry::newell;
     std::string algorithm; ///< name in the paper: "Algorithm 4" …
     std::string name{};    ///< name of the face
 };
 
-/// The four logical sides of a loop that runs once along the source rim and once along the target rim, in
-/// walking order: source, side, target, side; empty if it is no such loop.
+/// The four logical sides of a loop that runs once along the source rim and once along the target rim:
+/// source, side, target, side, in the order of the loop. Empty for any other loop.
 std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVolume& volume,
                                                           const topology::Loop& loop);
 
@@ -45,16 +45,16 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 ///   quadrics, the interior lies on the one that is a sphere, a circular cylinder, a cone or a pair of
 ///   planes.
 /// - Any other face is refused.
-/// @param follower  null, or the motion of the walls. A bent face with four logical sides then blends its
-///                  source side moved up and its target side moved down by this motion, and is shifted to
-///                  meet the two other sides.
+/// @param follower  null, or the motion of the walls. With a motion, a bent face with four logical sides is a
+///                  blend of two surfaces: its source side moved towards the target, and its target side
+///                  moved towards the source. The blend is shifted to meet the two other sides.
 /// @throw NotClosed  names the face and the edges that cross.
 VoidFilling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
                  const Follower* follower, const Subject& face, const RunContext& context = {});
 
-/// Triangulate a missing end with the shape of a given surface: its heights over the Newell plane of the
-/// loops, plus the harmonic extension of the residual at the loops.
-/// @param shape  the given end, moved by the walls to near the loops.
+/// Triangulate a missing end with the shape of a given surface. The heights of the end over the Newell plane
+/// of the loops are those of the surface, plus the harmonic extension of the difference at the loops.
+/// @param shape  the given end, moved along the walls so that it lies near the loops.
 /// @throw NotClosed  the loops cross in their Newell plane, or the surface folds over it; names the face.
 VoidFilling fill_as(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
                     const geometry::FacetTree& shape, double facet_size, const Subject& face,

@@ -5,9 +5,9 @@
 
 namespace lacuna::healing {
 
-/// Whether two faces coincide, in either orientation. Their exact surfaces are compared if both have one,
-/// otherwise their facets, which must stay within the tolerance of each other.
-/// @pre  their borders coincide.
+/// Whether two faces coincide within the tolerance, in either orientation. If both have an exact surface, the
+/// surfaces are compared, otherwise the facets.
+/// @pre  the borders of both faces coincide.
 bool faces_coincide(const topology::Model& model, const topology::Face& a, const topology::Face& b,
                     double tolerance, const RunContext& context);
 

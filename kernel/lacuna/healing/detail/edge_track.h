@@ -9,30 +9,30 @@
 
 namespace lacuna::healing {
 
-/// Measures distances to an edge: to its exact curve if it has one, else to its polyline.
+/// Measures distances to an edge: to the exact curve if the edge has one, otherwise to the polyline.
 class EdgeTrack {
 public:
-    /// Copies the geometry it needs, so the model may change afterwards.
+    /// Copies the edge's geometry, so the model may change afterwards.
     EdgeTrack(const topology::Model& model, EdgeId edge, const RunContext& context);
 
     /// A position on the edge.
     struct EdgePosition {
-        double s = 0;        ///< position on the polyline: 2.25 is a quarter of the way from point 2 to point
-                             ///< 3
+        double s = 0;        ///< position on the polyline; example: 2.25 is a quarter of the way from point 2
+                             ///< to point 3
         double param = 0;    ///< curve parameter; 0 without a curve
-        double distance = 0; ///< from the query point [model length]
+        double distance = 0; ///< distance from the query point [model length]
         Vec3 at = Vec3::Zero();
     };
-    /// The position closest to each point, at any distance.
+    /// For each point, the closest position on the edge, at any distance.
     [[nodiscard]] std::vector<EdgePosition> locate(std::span<const Vec3> points, double tolerance,
                                                    const RunContext& context) const;
-    /// The position of each point, for points in order along the edge: each search starts at the last
-    /// position, so `s` never falls. Empty if a point is further away than `tolerance`.
+    /// For points that are ordered along the edge: the position of each point. Each search starts at the
+    /// previous position, so `s` never decreases. Empty if a point is further away than `tolerance`.
     [[nodiscard]] std::optional<std::vector<EdgePosition>> follow(std::span<const Vec3> points,
                                                                   double tolerance,
                                                                   const RunContext& context) const;
 
-    /// Points of the polyline; with an exact curve, also the curve's point in the middle of every side.
+    /// Points of the polyline; for an exact curve, also the point of the curve in the middle of each side.
     [[nodiscard]] const std::vector<Vec3>& samples() const { return points_; }
     /// Largest distance from the curve to the chords between samples [model length].
     [[nodiscard]] double sagitta() const { return sagitta_; }
@@ -51,7 +51,7 @@ private:
     double sagitta_ = 0, length_ = 0;
 };
 
-/// Largest distance from a sample of one edge to the other edge [model length].
+/// Largest distance from a sample of either edge to the other edge [model length].
 double greatest_gap(const EdgeTrack& a, const EdgeTrack& b, double tolerance, const RunContext& context);
 
 } // namespace lacuna::healing

@@ -9,19 +9,20 @@
 
 namespace lacuna::healing {
 
-/// The sides of facets, grouped by segment. A segment is an undirected side; segments are numbered in the
-/// order of their points. Side k of facet f runs from corner k to the next corner and has the number 3·f + k.
-/// Takes time linear in the number of facets.
+/// The sides of facets, grouped by segment. Side k of facet f runs from corner k to the next corner and has
+/// the number 3·f + k. Segment: an undirected side, which several facets may share; segments are numbered in
+/// the order of their points. Construction takes time linear in the number of facets.
 class FacetSides {
 public:
-    /// @param facets  must outlive the sides. @param points  every corner is in [0, points).
+    /// @param facets  not copied; must outlive this object.
+    /// @param points  number of points; every corner is in [0, points).
     FacetSides(std::span<const Triangle> facets, std::size_t points);
 
     [[nodiscard]] Index from(Index side) const { return facets_[index(side) / 3][index(side) % 3]; }
     [[nodiscard]] Index to(Index side) const { return facets_[index(side) / 3][(index(side) + 1) % 3]; }
     [[nodiscard]] Index segment(Index side) const { return segment_[index(side)]; }
     [[nodiscard]] std::size_t segment_count() const { return first_.size() - 1; }
-    /// The sides on a segment, in order of facet.
+    /// The sides on a segment, in the order of the facets.
     [[nodiscard]] std::span<const Index> on(Index segment) const
     {
         const auto begin = index(first_[index(segment)]);
@@ -31,8 +32,8 @@ public:
 private:
     std::span<const Triangle> facets_;
     std::vector<Index> segment_; ///< segment of each side
-    std::vector<Index> sides_;   ///< grouped by segment
-    std::vector<Index> first_;   ///< start of each segment in sides_
+    std::vector<Index> sides_;   ///< all sides, grouped by segment
+    std::vector<Index> first_;   ///< start of each segment's group in `sides_`, then the number of sides
 };
 
 } // namespace lacuna::healing

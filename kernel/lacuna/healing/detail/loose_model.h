@@ -10,8 +10,9 @@
 
 namespace lacuna::healing {
 
-/// A model during stitching: entities are removed, points merge, and facet sides get points. Edges, their
-/// faces and the facets are consistent at any time; loops are rebuilt by `settled()`.
+/// A model during stitching. Entities can be removed, points can be merged, and points can be inserted into
+/// facet sides. Edges, the faces at edges and the facets are consistent after each call, except that merges
+/// of points wait for `settle_points()`. Loops are rebuilt by `settled()`.
 class LooseModel {
 public:
     /// @pre the model's loops are set.
@@ -21,7 +22,7 @@ public:
     [[nodiscard]] topology::Edge& edge(EdgeId e) { return model_[e]; }
     [[nodiscard]] bool is_gone(EdgeId e) const { return edge_gone_[e.index()]; }
     [[nodiscard]] bool is_gone(FaceId f) const { return face_gone_[f.index()]; }
-    /// The faces at an edge; a face that uses it twice is listed twice.
+    /// The faces at an edge; a face that uses the edge twice is listed twice.
     [[nodiscard]] const std::vector<FaceId>& users(EdgeId e) const { return users_[e.index()]; }
     [[nodiscard]] bool is_free(EdgeId e) const { return !is_gone(e) && users_[e.index()].size() == 1; }
     /// Whether the same face uses the edge twice.
@@ -29,12 +30,12 @@ public:
     {
         return users(e).size() == 2 && users(e).front() == users(e).back();
     }
-    /// Whether a face at the edge has a mesh that must be kept.
+    /// Whether a face at the edge has given quads, which must be kept.
     [[nodiscard]] bool keeps_mesh(EdgeId e) const;
-    /// Edges of each face in loop order, one entry per use.
+    /// For each face, its edges in ascending order, one entry per use.
     [[nodiscard]] std::vector<std::vector<EdgeId>> edges_of_faces() const;
 
-    /// Merge point `gone` into `stays` at the next `settle_points()`. Nodes of kept meshes do not move: if
+    /// Merge point `gone` into `stays` at the next `settle_points()`. Nodes of given quads do not move: if
     /// only `gone` is such a node, `stays` moves to the position of `gone`.
     void join(Index gone, Index stays);
     /// Merge vertex `gone` and its point into `stays`. @pre `stays` is not merged into another vertex.
@@ -50,11 +51,12 @@ public:
                                     ///< collapsed
         int edges = 0;              ///< number of edges that collapsed
     };
-    /// Apply the point merges and remove facets, edges and faces that collapsed.
+    /// Apply the merges of points, and remove the facets, edges and faces that collapsed.
     Shrunk settle_points();
-    /// Split the facets along the named edges wherever `sides` has points.
+    /// Split the facets of the faces at the given edges, where `sides` has points on sides of the facets.
     void cut(const topology::SidePoints& sides, const std::vector<EdgeId>& edges);
-    /// Split an edge at inner points, which become vertices. The first part keeps the tag.
+    /// Split an edge at inner points. The first part keeps the tag.
+    /// @param at  index of each point on the edge, and its vertex; ascending.
     void divide(EdgeId e, const std::vector<std::pair<std::size_t, VertexId>>& at);
     void remove(EdgeId e) { edge_gone_[e.index()] = true; }
     /// Replace every use of `gone` by a use of `stays`.
@@ -77,13 +79,13 @@ private:
     std::vector<bool> edge_gone_, face_gone_;
     std::vector<std::vector<FaceId>> users_;
     std::vector<VertexId> vertex_joined_; ///< the vertex that each vertex merges into
-    geometry::UnionFind joined_;          ///< points; the root of a set is the point that the others merge
-                                          ///< into
-    std::vector<bool> kept_;              ///< points that are nodes of given quads
-    std::vector<bool> touched_;           ///< points whose surface parameters must be recomputed
-    std::vector<bool> inside_;            ///< points inserted inside faces, which may be moved onto the
-                                          ///< surface
-    bool folded_ = false;                 ///< facets were removed because they lay back to back
+    geometry::UnionFind joined_;          ///< sets of merged points; the root of a set is the point that
+                                          ///< stays
+    std::vector<bool> kept_;              ///< by point: whether it is a node of given quads
+    std::vector<bool> touched_;           ///< by point: whether its surface parameters must be recomputed
+    std::vector<bool> inside_;            ///< by point: whether it was inserted inside a face, so that it may
+                                          ///< be moved onto the surface
+    bool folded_ = false;                 ///< whether facets were removed because they lay back to back
     int next_edge_tag_ = 1;
 };
 

@@ -9,17 +9,17 @@
 
 namespace lacuna::healing {
 
-/// A facet or a piece of a facet, with the index of the input facet.
+/// A facet, or a piece of a cut facet.
 struct FacetPiece {
     Triangle corner;
     Index of = -1;
 };
 
 /// Cut facets at T-junctions: where a point of a free side lies within the tolerance of another free side,
-/// away from its ends. A side is free if only one facet has it.
+/// away from that side's ends. Free side: a side of only one facet.
 ///
-/// @param whole  facets that must not be cut, such as halves of kept quads.
-/// @return the facets in their order, with the pieces of a cut facet in its place; empty if none was cut.
+/// @param whole  by facet: whether it must not be cut, such as halves of given quads.
+/// @return  the facets in their order, with the pieces of a cut facet in its place; empty if no facet is cut.
 /// @throw Cancelled
 /// @note O(n), plus O(n log n) in the free sides.
 std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::span<const Triangle> facets,

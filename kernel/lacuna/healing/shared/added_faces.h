@@ -10,15 +10,15 @@
 
 namespace lacuna::healing {
 
-/// A face of a model that is made face by face.
+/// A face of a model that a recipe makes face by face.
 struct AddedFace {
     std::string name;
     std::vector<Vec3> points;
     std::vector<std::array<int, 4>> cells; ///< numbers of points, from 1; the fourth is 0 for a triangle
-    bool keep_mesh = false;                ///< its quads are kept
+    bool keep_mesh = false;                ///< whether meshes keep the nodes and quads of this face
 };
 
-/// The faces of such a model, one label for each in the order of adding.
+/// The faces added so far. Each face has its own label, from 0 in the order of adding.
 struct AddedFaces {
     FacetSoup soup;
     int count = 0;

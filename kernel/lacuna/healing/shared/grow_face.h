@@ -11,26 +11,28 @@ namespace lacuna::healing {
 
 struct GrowOptions {
     double angle = 20;         ///< growth does not cross sides that turn by more than this [degrees]
-    double feature_angle = 40; ///< the new edges get vertices where they turn by more than this [degrees]
+    double feature_angle = 40; ///< the edges of the grown face get vertices where they turn by more than this
+                               ///< [degrees]
 };
 
 struct GrownFace {
     topology::Model model;
     FaceId face;             ///< the grown face, in `model`
-    std::vector<FaceId> now; ///< for each old face, its index in `model`; invalid if the face was grown over
-                             ///< entirely
+    std::vector<FaceId> now; ///< for each face of the input, its index in `model`; invalid if growth took the
+                             ///< whole face
 };
 
-/// Make one face of the facets connected to the facet closest to `near`. Growth crosses sides that have
-/// exactly two facets and turn by no more than `angle`; a given quad counts as one facet.
+/// Make one face of facets that are connected to the facet closest to `near`. Growth goes from facet to
+/// facet, across sides that have exactly two facets and turn by at most `angle`. A given quad counts as one
+/// facet.
 ///
-/// Growth may take facets from other faces. The rest of such a face keeps its tag and its place among the
-/// faces. If the rest is in several parts, the part with the most facets keeps the tag and the place; the
-/// other parts and the grown face come last, with new tags above all others. A face that is grown over
-/// entirely is removed. The grown face takes its name, groups and regions from the face of the first facet.
-/// If growth takes exactly one existing face, the model is unchanged and that face is returned. Otherwise
-/// edges and vertices are renumbered.
-/// @param among  faces that may be grown over.
+/// Growth may take facets from other faces. The rest of such a face keeps the face's tag and its place in the
+/// list of faces. If the rest has several parts, the part with the most facets keeps tag and place. The other
+/// parts and the grown face come last, with new tags above all others. A face of which nothing is left is
+/// removed. The grown face takes its name, groups and regions from the face of the first facet. If growth
+/// takes exactly one existing face, the model is unchanged and that face is returned. Otherwise edges and
+/// vertices are renumbered.
+/// @param among  faces from which growth may take facets.
 /// @throw InvalidInput "topology.bad_angle"   an angle outside (0, 180]. "healing.exact_faces"  a face has
 ///                     exact geometry, which cannot be cut into parts. "healing.nothing_to_grow"  `among` is
 ///                     empty.

@@ -8,10 +8,10 @@
 
 namespace lacuna::healing {
 
-/// Orient faces consistently across every edge that has exactly two faces of one group, and outward if the
-/// group closes a volume. A group is a solid, or all faces if there are no solids. Faces that cannot be
-/// oriented consistently are unchanged.
-/// @param groups  face numbers; a face is in one group at most.
+/// Orient the faces of each group (a solid, or all faces if there are no solids). Connected faces are
+/// oriented consistently across edges that have exactly two faces of the group. If they enclose a volume,
+/// they are oriented outward. Connected faces that cannot be oriented consistently are unchanged.
+/// @param groups  indices of the faces of each group; a face is in one group at most.
 /// @note  O(n log n) in facets.
 void orient_groups(topology::ModelBuilder& model, const std::vector<std::vector<std::size_t>>& groups);
 

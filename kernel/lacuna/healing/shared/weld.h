@@ -9,11 +9,12 @@
 
 namespace lacuna::healing {
 
-/// For each point the number of the point it merges into: itself, or an earlier one within `tolerance`.
+/// For each point, the index of the point into which it merges: its own, or that of an earlier point within
+/// `tolerance`.
 ///
-/// Points are taken in order. Each merges into the nearest kept point within the tolerance (the first of
-/// several at the same distance), or is kept itself. So result[result[i]] == result[i] <= i, and kept points
-/// are further apart than the tolerance. Equal points always merge.
+/// Points are visited in order. A point merges into the nearest kept point within the tolerance (of several
+/// at the same distance, the first); if there is none, the point is kept. Hence result[result[i]] ==
+/// result[i] <= i, and kept points are further apart than the tolerance. Equal points always merge.
 /// @pre  every coordinate is finite; tolerance >= 0.
 /// @throw Cancelled.
 /// @note O(n) unless kept points are much closer to each other than the tolerance.

@@ -14,7 +14,7 @@
 
 namespace lacuna::matching {
 
-/// Loops for a message, numbered from 1 as in the recipe.
+/// Loops as entities of a message, numbered from 1 as in recipes.
 NamedEntity source_loop(std::integral auto loop) { return {"source loop", static_cast<long long>(loop) + 1}; }
 NamedEntity target_loop(std::integral auto loop) { return {"target loop", static_cast<long long>(loop) + 1}; }
 
@@ -37,27 +37,29 @@ struct Problem {
     std::vector<LoopShape> source, target;
     std::map<VertexId, VertexId> walls; ///< source vertex → target vertex, joined by walls
     std::map<VertexId, VertexId> hard;  ///< the pairs from the walls and those of the user
-    std::vector<int> forced;            ///< target loop of each source loop, -1: not fixed
-    std::vector<bool> on_wall;          ///< by vertex of the model
-    std::optional<bool> backward; ///< set to true if walls join the ends: the target loops then run against
-                                  ///< the source loops
+    std::vector<int> forced;            ///< target loop of each source loop that walls or the user fixed; -1:
+                                        ///< not fixed
+    std::vector<bool> on_wall;          ///< by vertex of the model: whether it is on a wall
+    std::optional<bool> backward; ///< true if walls join the ends, because target loops then run against
+                                  ///< source loops; otherwise empty
     /// Results of `paired_by_length()` so far; the key is source · number of targets + target.
     mutable std::unordered_map<std::size_t, bool> by_length;
-    PointPairs led; ///< source rim points and their images under the given walls; empty if all loops have
-                    ///< walls
+    PointPairs led; ///< points of the given walls on the source rim and corresponding points on the target
+                    ///< rim; empty if all loops have walls
 
-    /// Whether two loops are paired by length rather than vertex by vertex: if they have different numbers of
-    /// vertices, or only one vertex each; if no pairing of vertices keeps the pairs joined by walls; if the
-    /// best one pairs a corner with a smooth vertex although a corner is available; or if it pairs no two
-    /// corners and its mean twist exceeds `kMostTwist`.
+    /// Whether two loops are paired by length rather than vertex by vertex. This is so in these cases:
+    /// - the loops have different numbers of vertices, or one vertex each;
+    /// - no pairing of vertices keeps the pairs that walls join;
+    /// - the best pairing joins a corner with a smooth vertex, although a corner is available;
+    /// - the best pairing joins no two corners, and its mean twist exceeds `kMostTwist`.
     [[nodiscard]] bool paired_by_length(std::size_t s, std::size_t t) const;
-    /// The pairs of `led` nearest to a source loop.
+    /// The pairs of `led` whose source points are nearest to the centroid of a source loop.
     [[nodiscard]] PointPairs led_near(std::size_t s) const;
     [[nodiscard]] bool has_hard(std::size_t s) const;
 };
 
-/// @param match  with its loops set; its side lines are added.
-/// @throw InvalidInput, NotClosed  user pairs or walls that contradict each other; names tags and loops.
+/// @param match  a match whose loops are set; the side lines are added to it.
+/// @throw InvalidInput, NotClosed pairs of the user or walls contradict each other; names tags and loops.
 Problem problem_of(const topology::OpenVolume& volume, const MatchOptions& options, Match& match,
                    const RunContext& context);
 
