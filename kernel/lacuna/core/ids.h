@@ -9,7 +9,7 @@
 
 namespace lacuna {
 
-/// A typed index: ids of different kinds do not mix, and do not convert to `int`.
+/// A typed index. Ids of different kinds cannot be assigned to each other, and do not convert to `int`.
 template <class Kind>
 class Id {
 public:

@@ -9,7 +9,7 @@ namespace lacuna {
 
 void use_large_pages(void* memory, std::size_t bytes)
 {
-    // Size of a large page on x86 and most ARM processors. Elsewhere the request has no effect.
+    // Size of a large page on x86 and most ARM processors. On other processors the request has no effect.
     constexpr std::size_t kLarge = std::size_t(1) << 21;
     const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + kLarge - 1) / kLarge * kLarge;
     const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kLarge * kLarge;

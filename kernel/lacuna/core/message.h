@@ -20,7 +20,7 @@ struct NamedEntity {
     std::string kind; ///< "face", "void face", "edge", "vertex", "source loop", "node", "cell", "element"…
     long long tag = 0;
     std::string name{}; ///< given by the user or the input; may be empty
-    /// Tags of the end vertices of an edge, where the text names them: "edge 3 (vertices 4-9)".
+    /// Tags of the end vertices of an edge, if the text is to name them: "edge 3 (vertices 4-9)".
     std::optional<std::pair<long long, long long>> ends{};
 
     bool operator==(const NamedEntity& other) const { return kind == other.kind && tag == other.tag; }
@@ -29,7 +29,7 @@ struct NamedEntity {
 /// A number or a text in a message.
 using MessageValue = std::variant<long long, double, std::string>;
 
-/// The parts of a message: they are sent to another process, or copied into a message that quotes this one.
+/// The parts of a message, as data. They can be sent to another process, or quoted by another message.
 struct MessageParts {
     std::string code; ///< "folder.what_went_wrong"; stable, for programs
     std::string text; ///< without the remedy
@@ -40,8 +40,8 @@ struct MessageParts {
 
 /// An argument of a message: a number, a text, an entity, a list of entities or another message.
 ///
-/// Copying and destruction of messages and their arguments are compiled once, in `message.cpp`: inline, they
-/// would be repeated at each of the many places that make an error.
+/// Copying and destruction of messages and arguments are defined in `message.cpp`. As inline functions, they
+/// would be compiled again at each of the many places that make an error.
 class Argument {
 public:
     enum class Role { plain, found, needed };
@@ -59,8 +59,8 @@ public:
     Argument(const NamedEntity& entity);
     /// Printed as a list of at most six entities and a count of the others.
     Argument(std::vector<NamedEntity> entities);
-    /// Prints the text and the remedy of the quoted message; the new message takes over its entities and
-    /// values.
+    /// Prints the text and the remedy of the quoted message. The entities and values of the quoted message
+    /// are added to the new message.
     Argument(MessageParts quoted);
     Argument(Role role, const Argument& of);
 
@@ -141,7 +141,7 @@ public:
     Message& operator=(Message&&) noexcept;
     ~Message();
 
-    /// Add one thing to try; it follows the text after a semicolon.
+    /// Add one thing that the user can try. It is printed after the text and a semicolon.
     template <class... Arguments>
     [[nodiscard]] Message remedy(Format<sizeof...(Arguments)> format, const Arguments&... arguments) &&
     {
@@ -153,7 +153,7 @@ public:
     {
         return Message(*this).remedy(format, arguments...);
     }
-    /// Add the reason why an attempt failed. The text ends with it, in brackets.
+    /// Add the reason why an attempt failed. It is printed in brackets at the end of the text.
     [[nodiscard]] Message attempt(Message failed) const;
     /// The same message with the name of a part, file or member in front: "subject: text".
     [[nodiscard]] Message about(std::string_view subject) const;
@@ -165,7 +165,7 @@ public:
     [[nodiscard]] const std::vector<NamedEntity>& entities() const { return parts_.entities; }
     [[nodiscard]] const std::vector<MessageValue>& found() const { return parts_.found; }
     [[nodiscard]] const std::vector<MessageValue>& needed() const { return parts_.needed; }
-    /// The message without the failed attempts.
+    /// All parts of the message except the failed attempts.
     [[nodiscard]] const MessageParts& parts() const { return parts_; }
     [[nodiscard]] const std::vector<Message>& attempts() const { return attempts_; }
 

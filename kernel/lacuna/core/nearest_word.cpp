@@ -9,7 +9,8 @@ namespace lacuna {
 
 std::size_t edit_distance(const char* a, const char* b)
 {
-    // Letters beyond this length are not compared: only the difference in their number counts.
+    // Letters beyond this length are not compared. Only the difference between the lengths of the two words
+    // counts.
     constexpr std::size_t kLongest = 63;
     const std::size_t m = std::min(std::strlen(a), kLongest), n = std::min(std::strlen(b), kLongest);
     std::array<std::size_t, kLongest + 1> row{};

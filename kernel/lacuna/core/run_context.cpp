@@ -10,8 +10,8 @@ namespace lacuna {
 
 namespace {
 
-/// The number of threads is limited to this, or to the number of cores if that is larger: a guard against
-/// mistyped numbers.
+/// The number of threads is limited to the larger of this and the number of cores, in case a user mistypes
+/// it.
 constexpr int kMostThreads = 64;
 
 } // namespace
@@ -23,7 +23,7 @@ void check_cancelled(const RunContext& context)
 
 int thread_count(const RunContext& context)
 {
-    // Do not query the number of cores if possible: it takes longer than a small loop.
+    // The number of cores is queried only if it is needed: the query takes longer than a small loop.
     if (context.threads > 0 && context.threads <= kMostThreads) return context.threads;
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return context.threads > 0 ? std::min(context.threads, std::max(cores, kMostThreads)) : cores;

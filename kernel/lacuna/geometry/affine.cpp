@@ -15,7 +15,7 @@ namespace lacuna::geometry {
 
 namespace {
 
-// A spread below this share of the largest one is indistinguishable from rounding.
+// A spread below this share of the largest spread cannot be distinguished from a rounding error.
 const double kUnresolved = std::sqrt(std::numeric_limits<double>::epsilon());
 
 Vec3 pseudo_normal(const Vec3& area)
@@ -30,7 +30,8 @@ void complete(Eigen::Matrix3d& image, int rank)
     if (rank == 0) {
         image.setIdentity();
     } else if (rank == 1) {
-        // `image` is in the frame of the axes: the first axis is mapped to its column 0.
+        // The columns of `image` are the images of the principal axes. Only that of the first axis, column 0,
+        // is known.
         const double length = image.col(0).norm();
         if (length > 0) {
             const Vec3 along = image.col(0);

@@ -51,8 +51,7 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
     const Vec2 centre = box.center();
     double extent = box.sizes().maxCoeff();
     if (!(extent > 0)) extent = 1;
-    // Any triangle around the box would do. This one is a few times larger, so that the first triangles are
-    // not slivers.
+    // The triangle is a few times larger than the points' box, so that the first triangles are not slivers.
     points_.push_back(centre + Vec2(-8, -5) * extent);
     points_.push_back(centre + Vec2(8, -5) * extent);
     points_.push_back(centre + Vec2(0, 9) * extent);
@@ -68,10 +67,10 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
 void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, double extent)
 {
     // Insert the points in rounds @cite amenta_2003_order. Each round has about as many points as all rounds
-    // before it, ordered along a Hilbert curve. In a single round, the points of a line or circle would come
-    // one after the other. Each of them would replace nearly all triangles at the previous one, and a walk
-    // could pass all of these points.
-    constexpr std::size_t kFirstRound = 1024; // a small first round is inserted in Hilbert order only
+    // before it, chosen by a hash and ordered along a Hilbert curve. Without rounds, the points of a line or
+    // circle would be inserted one after the other along it. Each of them would replace nearly all triangles
+    // at the previous one, and a walk could pass all of these points.
+    constexpr std::size_t kFirstRound = 1024; // upper bound of the number of points in the first round
     int rounds = 0;
     while (used.size() >> rounds > kFirstRound) ++rounds;
     std::vector<std::tuple<int, std::uint32_t, Index>> order;
@@ -267,8 +266,8 @@ void DelaunayMesh::fix_segment(Index a, Index b)
         const double turn = orient2d(at(a), at(b), at(apex));
         if (turn == 0) throw Error("geometry.internal", "internal error: a segment passes through a point");
         (turn > 0 ? left : right).push_back(apex);
-        // The corners are the apex and the ends of the left and right chains. Cross the side between the apex
-        // and one of these ends.
+        // The segment leaves the triangle between the apex and the last point of the other chain (the apex
+        // has just been added to its own chain).
         side = turn > 0 ? (entry + 1) % 3 : (entry + 2) % 3;
     }
     left.push_back(b);
@@ -280,8 +279,9 @@ void DelaunayMesh::fix_segment(Index a, Index b)
 void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<Index> left,
                                  const std::vector<Index>& right)
 {
-    // For each side of the strip, find the triangle on its other side. A chain may contain a point twice (a
-    // dangling side), so sides are looked up instead of counted.
+    // For each side on the border of the strip, find the triangle beyond it. Sides are identified by their
+    // end points, not by their position in a chain, because a chain may contain a point twice (a side that
+    // has the strip on both sides).
     std::map<std::pair<Index, Index>, std::tuple<Index, bool>> across;
     const bool inside = (*this)[strip.front()].inside;
     for (const Index t : strip) stamp_[index(t)] = -2;
@@ -297,9 +297,10 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
     }
     for (const Index t : strip) stamp_[index(t)] = -1;
 
-    // On each side of the segment there is a polygon with the segment as base. The chain point whose circle
-    // through the base contains no other point forms the Delaunay triangle on the base, and leaves two
-    // smaller polygons (Anglada 1997).
+    // On each side of the segment, the segment and a chain bound a polygon. The segment is its base. One
+    // point of the chain forms the Delaunay triangle on the base: the circle through this point and the base
+    // contains no other point of the chain. The triangle divides the rest into two smaller polygons, whose
+    // bases are its other sides (Anglada 1997).
     std::reverse(left.begin(), left.end());
     std::vector<Triangle> made;
     const auto fill = [&](const std::vector<Index>& chain) {
@@ -357,8 +358,8 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
 
 void DelaunayMesh::mark_inside()
 {
-    // Visit the triangles breadth first by depth, which is the number of constraints between a triangle and
-    // the outside. The search starts outside, at a corner of the huge triangle.
+    // Depth of a triangle: number of constraints between this triangle and the outside. Visit the triangles
+    // in order of their depth, starting outside, at a corner of the huge triangle.
     std::vector<Index> depth(triangles_.size(), -1);
     std::vector<Index> level{triangle_of_[index(given_)]};
     for (Index now = 0; !level.empty(); ++now) {

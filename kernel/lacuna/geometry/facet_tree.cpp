@@ -20,8 +20,8 @@ using Corners = std::array<Vec3, 3>;
 
 /// Limit on the triangles in a leaf.
 constexpr std::uint32_t kLeaf = 4;
-/// Subtrees with fewer triangles are built without a check for cancellation. A search for overlaps checks
-/// once every so many compared pairs of boxes. Both take a few milliseconds.
+/// Subtrees with fewer triangles are built without a check for cancellation. A search for overlaps checks for
+/// cancellation each time that it has compared this number of pairs of boxes. Both take a few milliseconds.
 constexpr std::uint32_t kPolled = 16384;
 /// Subtrees with fewer triangles are built on one thread, because that takes only 1 ms.
 constexpr std::uint32_t kShared = 4096;
@@ -54,7 +54,8 @@ bool near(const Box& a, const Box& b, double margin)
            ((b.min().array() - margin) <= a.max().array()).all();
 }
 
-/// Componentwise inverse. Both +0 and -0 give +∞, which keeps the two sides of a box in order.
+/// Componentwise inverse. Both +0 and -0 give +∞: the sign of a zero must not exchange the two sides of a
+/// box.
 Vec3 inverse_of(const Vec3& direction) { return (direction.array() + 0.0).inverse(); }
 
 /// Whether the ray intersects the box before t_max. `inverse` may contain infinities.
@@ -75,9 +76,9 @@ bool meets(const Box& box, const Vec3& origin, const Vec3& inverse, double t_max
     return enter <= leave * (1 + slack) + std::numeric_limits<double>::min();
 }
 
-/// Intersection of a ray with a triangle, by the volumes that the ray spans with its sides. A side that two
-/// triangles share has the same volume in both, up to the sign, so that no ray passes between them
-/// @cite woop_2013_watertight.
+/// Intersection of a ray with a triangle, by the signed volumes of the tetrahedra that the ray forms with the
+/// triangle's sides. A side that two triangles share has the same volume in both, up to the sign, so that no
+/// ray passes between the triangles @cite woop_2013_watertight.
 FacetTree::RayHit ray_triangle(const Corners& c, const Vec3& origin, const Vec3& direction)
 {
     const Vec3 a = c[0] - origin, b = c[1] - origin, d = c[2] - origin;
@@ -434,7 +435,7 @@ bool overlap_in_plane(const Corners& a, const Corners& b, const Vec3& normal, do
 bool triangles_cross(const Corners& a, const Corners& b, double tolerance)
 {
     const Vec3 area_a = (a[1] - a[0]).cross(a[2] - a[0]), area_b = (b[1] - b[0]).cross(b[2] - b[0]);
-    // Degenerate triangles are skipped; if they are part of an intersection, their neighbours are too.
+    // Degenerate triangles are skipped: where such a triangle intersects another one, its neighbours do too.
     if (area_a.isZero(0) || area_b.isZero(0)) return false;
     const Vec3 normal_a = area_a.normalized(), normal_b = area_b.normalized();
     // Heights and lengths have rounding errors of a few bits of the extent of the triangles.

@@ -127,7 +127,8 @@ void check_disc(const Facets& facets, const std::vector<Segment>& boundary, cons
     const auto v = static_cast<long>(facets.points.size()), f = static_cast<long>(facets.triangles.size());
     const auto b = static_cast<long>(boundary.size()), loops = static_cast<long>(facets.loops.size());
     const long edges = (3 * f + b) / 2, euler = v - edges + f + loops;
-    // Each handle reduces the Euler number by 2. A boundary that touches itself at a point is accepted.
+    // A disc without its holes has the Euler number 2, and each handle reduces this number by 2. A boundary
+    // that touches itself at a point is accepted.
     if (euler <= 0)
         fail(Message("geometry.not_flattenable", "they have {} handles", found((2 - euler) / 2))
                  .remedy("cut them open"));
@@ -164,7 +165,8 @@ void judge(const Facets& facets, const std::vector<Segment>& boundary, Flattened
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
         const auto [large, small] = flat::stretches(flat::jacobian(facets, t, flat.position));
         if (facets.shapes[t].thin) {
-            // The sign of a collapsed triangle is a rounding error, unless the triangle has grown.
+            // A facet without height has a determinant whose sign is only a rounding error. It counts as
+            // flipped only if its image has a larger area than the facet.
             if (small * large < -1) ++flat.flips;
             continue;
         }
@@ -230,7 +232,8 @@ bool is_tube(const Facets& facets)
     return turning < std::numbers::pi;
 }
 
-/// Try maps in order of distortion until one is one-to-one; else keep the one with the fewest flips.
+/// Compute maps in the order that `flatten()` states until one is one-to-one. If none is, keep the one with
+/// the fewest flips.
 void choose_map(const Facets& facets, const std::vector<Segment>& boundary, double settled, Flattened& flat)
 {
     bool any = false;

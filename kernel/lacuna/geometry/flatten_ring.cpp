@@ -13,8 +13,9 @@ namespace {
 
 double share(double turns) { return turns - std::floor(turns); }
 
-/// The rotation of the inner loop that minimises the shear of the strip [turns]. Adding this multiple of the
-/// coordinate across the strip to the coordinate around it gives the least Dirichlet energy.
+/// The rotation of the inner loop relative to the outer loop that minimises the shear of the strip [turns].
+/// If this multiple of the coordinate across the strip is added to the coordinate around the strip, the sum
+/// has the least Dirichlet energy.
 double least_shear(const Facets& facets, const HarmonicProblem& problem, const Eigen::MatrixXd& strip)
 {
     double both = 0, across = 0;
@@ -47,12 +48,12 @@ Positions ring(const Facets& facets)
     problem.points = facets.points;
     problem.triangles = facets.triangles;
     problem.corner_turns = turns_along(facets.triangles, cut);
-    // The facets lie on the left of the loop, so the loop leaves the cut on its right side, where the branch
-    // is one turn less.
+    // The facets lie on the left of the outer loop. The loop therefore starts on the right side of the cut,
+    // where the values around the strip are one turn less.
     problem.period = Eigen::RowVector2d(-1, 0);
     const auto round_at = [&](std::size_t i) { return i == 0 ? 1 : round[i] / round.back(); };
-    // The inner loop runs in the opposite direction, on the branch of the end of the cut. Its rotation is a
-    // harmonic function that is added later.
+    // The inner loop runs in the opposite direction, so its values decrease. They start at the end of the cut
+    // with -1 · (share of the loop up to there). The rotation of the inner loop is added later.
     const auto end = static_cast<std::size_t>(std::find(inner.begin(), inner.end(), cut.back()) -
                                               inner.begin());
     const double branch = -within[end] / within.back();

@@ -69,9 +69,9 @@ std::vector<bool> on_border(const HarmonicProblem& problem)
     return border;
 }
 
-/// The weights of all corners of all triangles, unordered: cotangents at borders, mean value weights
-/// elsewhere. At a border all neighbours are on one side, so mean value weights would be biased by the
-/// diagonals of the facets. With cotangents there is no flux across the border.
+/// The weights of all corners of all triangles, unordered: cotangents at points on a border, mean value
+/// weights elsewhere. At a border point all neighbours are on one side, so mean value weights would depend on
+/// the directions of the facets' diagonals. With cotangents there is no flux across the border.
 std::vector<Weight> corner_weights(const HarmonicProblem& problem, const std::vector<bool>& border)
 {
     std::vector<Weight> weights;
@@ -197,8 +197,8 @@ std::vector<double> normalise(std::vector<Weight>& weights, std::size_t points, 
 }
 
 /// Row factors that make the matrix nearly symmetric, as multigrid needs.
-/// @param sums  sum of each point's weights before normalising. Mean value weights are divided by a length;
-///              the cotangents of border points must be scaled in the same way.
+/// @param sums  sum of each point's weights before normalising. Mean value weights have the unit 1 / length,
+///              but cotangents of border points have no unit, so these are divided by a length here.
 std::vector<double> evening(const HarmonicProblem& problem, const std::vector<bool>& border,
                             std::span<const Weight> weights, std::vector<double> sums)
 {
@@ -260,14 +260,16 @@ Eigen::MatrixXd solve_directly(const std::vector<Eigen::Triplet<double>>& entrie
     return solver.solve(right);
 }
 
-/// The values of an affine function of position, if one has the fixed values and satisfies all means;
-/// otherwise empty. Walls that extend straight up have such a function, so no system need be solved.
+/// The values of an affine function of position that solves the problem: it has the fixed values and, at
+/// every free point, equals the weighted mean of its values at the neighbours. Empty if there is none, and
+/// for more than three values or with `corner_turns`. Straight walls have such a function, so no system need
+/// be solved for them.
 /// @param weights  normalised
 std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, std::span<const Index> role,
                                                std::span<const Weight> weights)
 {
-    // Allowed difference relative to the range of the fixed values. Nine digits are then correct a hundred
-    // layers away from the next fixed point.
+    // Allowed error of a mean, relative to the range of the fixed values. Errors add up with the distance
+    // from the fixed points: at a hundred layers, nine digits are still correct.
     constexpr double kOff = 1e-13;
     const Eigen::Index columns = problem.fixed_values.cols();
     if (columns > 3 || !problem.corner_turns.empty()) return std::nullopt;
@@ -360,7 +362,7 @@ Eigen::MatrixXd solve_compact(const HarmonicProblem& problem, std::span<const In
 Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context)
 {
     check(problem);
-    // Number the used points alone, in their order: a linking surface uses few points of a large model.
+    // Give consecutive numbers to the points that triangles use: the walls use few points of a large model.
     std::vector<char> is_used(problem.points.size(), 0);
     for (const Triangle& triangle : problem.triangles)
         for (const Index corner : triangle) is_used[index(corner)] = 1;

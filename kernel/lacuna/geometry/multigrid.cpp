@@ -29,8 +29,8 @@ constexpr double kSettled = 1e-11;
 /// Limit on the number of iterations; five to eight are usual.
 constexpr int kMostSteps = 60;
 
-/// Assign each row to an aggregate, which becomes a row of the next level. Rows without strong couplings get
-/// -1: a Gauss-Seidel sweep solves them.
+/// Assign each row to an aggregate; each aggregate becomes a row of the next level. Rows without strong
+/// couplings get -1, because the Gauss-Seidel sweeps alone solve them.
 std::vector<Index> aggregates(const Matrix& matrix, Index& count)
 {
     const Eigen::Index rows = matrix.rows();
@@ -120,7 +120,8 @@ Matrix prolongation(const Matrix& matrix, const std::vector<Index>& of, Index co
     return up;
 }
 
-/// A forward Gauss-Seidel sweep from x = 0: columns after the diagonal are skipped, as x is still zero there.
+/// A forward Gauss-Seidel sweep that starts from x = 0. Columns after the diagonal are skipped, because x is
+/// still zero there.
 void first_sweep(const Matrix& matrix, const Vector& right, Vector& x)
 {
     x.resize(matrix.rows());
@@ -228,7 +229,7 @@ bool Multigrid::solve(const Vector& right, Vector& x, const RunContext& context)
         direction = residual + product / before * along / damped * (direction - damped * change);
         if (!std::isfinite(size) || product == 0) return false;
     }
-    // The residual updated in each step drifts, so compute it anew.
+    // Rounding errors add up in the residual that is updated in each step, so compute it from x.
     return (right - matrix * x).norm() <= 10 * wanted;
 }
 

@@ -47,7 +47,8 @@ Plane plane_across(const Vec3& origin, const Vec3& normal)
     plane.normal = normal.normalized();
     int thinnest = 0;
     plane.normal.cwiseAbs().minCoeff(&thinnest);
-    // The coordinate axis farthest from the normal gives the best conditioned cross product.
+    // Of the three coordinate axes, use the one with the largest angle to the normal: its cross product with
+    // the normal has the smallest rounding error.
     plane.v = plane.normal.cross(Vec3::Unit(thinnest)).normalized();
     plane.u = plane.v.cross(plane.normal);
     return plane;

@@ -210,8 +210,9 @@ bool lies_inside(std::span<const Vec2> polygon, const Vec2& p)
 bool encloses(std::span<const Vec2> outer, std::span<const Vec2> inner)
 {
     if (std::abs(signed_area(inner)) >= std::abs(signed_area(outer))) return false;
-    // A point inside `inner`: the middle of the first part of a horizontal line through it. The line is
-    // as far from all vertices as it can be, because shared vertices and sides decide nothing.
+    // Test one point inside `inner`: the middle of the first part of a horizontal line inside `inner`. The
+    // line is as far from all vertices as possible. A vertex of `inner` itself cannot be tested, because it
+    // may also be a vertex of `outer`, or lie on a side of it.
     std::vector<double> heights;
     for (const Vec2& p : inner) heights.push_back(p.y());
     std::ranges::sort(heights);

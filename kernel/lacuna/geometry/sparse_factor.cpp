@@ -22,8 +22,8 @@ class RowPattern {
 public:
     explicit RowPattern(int size) : parent_(index(size), -1), met_(index(size), -1), row_(index(size)) {}
 
-    /// The columns in which row k of L has entries, stored at the end of `row_`. Each column comes after the
-    /// columns that it depends on.
+    /// The columns in which row k of L has entries. Each column comes after the columns that it depends on.
+    /// The span is valid until the next call.
     /// @param tell  called with each entry of column k of the upper triangle.
     template <class Tell>
     std::span<const int> of(const Matrix& upper, int k, const Tell& tell)

@@ -16,7 +16,7 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// A point of a curve and its direction.
+/// A point of a curve, and the direction of the curve there.
 struct Place {
     Vec3 point, tangent;
 };
@@ -100,8 +100,8 @@ public:
         const double f = at.fraction, step = at_[i + 1] - at_[i];
         const Vec3 chord = points_[i + 1] - points_[i];
         const Vec3 low = step * tangents_[i] - chord, high = step * tangents_[i + 1] - chord;
-        // Evaluate the cubic as its chord plus the differences of its directions from the chord. A line then
-        // stays a line bit for bit.
+        // Evaluate the cubic as a point of its chord, plus terms in the differences between its directions at
+        // both ends and the chord. On a line these terms are zero bit for bit.
         const Vec3 point = points_[i] + f * chord + f * (1 - f) * ((1 - f) * low - f * high);
         const Vec3 tangent = chord + (1 - f) * (1 - 3 * f) * low - f * (2 - 3 * f) * high;
         return {point, double_reflection(knot(i), {point, tangent.normalized()}) * frames_[i]};

@@ -13,8 +13,9 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// The chord between left and right defines no reliable frame if it is shorter than this share of the length
-/// of bottom and top.
+/// Minimum length of the chord between left and right, as a share of the mean length of bottom and top, and
+/// minimum sine of the angle between this chord and the sides. Below, the axes of a frame would be
+/// unreliable.
 constexpr double kShortChord = 0.1;
 /// Length over which the direction of a side is measured, relative to the length of the side.
 constexpr double kReach = 0.02;

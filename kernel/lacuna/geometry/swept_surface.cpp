@@ -10,8 +10,8 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Limit on the steps of a projection. A projection starts on the nearest facet, which differs from the
-/// surface by the sag of a chord; three to five steps then reach rounding.
+/// Limit on the steps of a projection. A projection starts at the nearest facet, so the first distance is at
+/// most the sag of a chord. Three to five steps reduce the error to rounding.
 constexpr int kMostNewtonSteps = 20;
 /// Step of central differences, as a share of a parameter's range: the cube root of the rounding error.
 constexpr double kDifference = 1e-5;

@@ -25,12 +25,15 @@ std::vector<double> angles_at_points(std::span<const Vec3> points, std::span<con
 
 std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles)
 {
-    // Angles at a tip lack at least a tenth of a full turn (see tips.h). More tips than the limit mean that
-    // the facets are coarse.
+    // At a tip, the angles sum to at least this much less than a full turn (see tips.h). If there are more
+    // tips than the limit, the facets are coarse, and the points are no tips of cones.
     constexpr double kLack = 0.2 * std::numbers::pi;
     constexpr std::size_t kMostTips = 64;
     const std::vector<double> angle = angles_at_points(points, triangles);
-    // At an inner point, every neighbour occurs once before the point and once after it in a triangle.
+    // For each point, the sum of the neighbours' numbers, positive where the neighbour follows the point in a
+    // triangle and negative where it precedes the point. At an inner point, every neighbour does both once,
+    // so the sum is zero. At a border point it is not, because the first and the last neighbour do not
+    // cancel.
     std::vector<std::int64_t> turn(points.size(), 0);
     for (const Triangle& t : triangles) {
         for (std::size_t k = 0; k < 3; ++k)

@@ -53,15 +53,15 @@ void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index
 
 // --- adding points ----------------------------------------------------------------------------------
 
-// Ratio of circumradius to target length: 1/√3 for an equilateral triangle of target size. Triangles are too
+// Ratios of circumradius to target length. An equilateral triangle of target size has 1/√3. A triangle is too
 // large above 1/√2, so a right triangle whose legs have the target length is accepted.
 constexpr double kEquilateral = 1 / std::numbers::sqrt3;
 constexpr double kTooLarge = 1 / std::numbers::sqrt2;
 // Smallest ratio of circumradius to shortest side for which inserting circumcentres provably ends, with
 // graded triangles (Ruppert 1995).
 constexpr double kTooSkinny = std::numbers::sqrt2;
-// New points keep this distance from visible points, relative to the target length. It is the circumradius of
-// an equilateral triangle of target size, a circle that contains no other point.
+// Minimum distance of a new point from other points, relative to the target length: the circumradius of an
+// equilateral triangle of target size, because the circumcircle of a triangle contains no other point.
 constexpr double kKeepAway = kEquilateral;
 
 class Refinement {
@@ -204,7 +204,8 @@ private:
         state.settled = !(state.badness > 1);
     }
 
-    /// A triangle waits until one of its sides is final, so that points advance from the rim in rows.
+    /// Queue a triangle for refinement. It is queued only when one of its sides is final (on the rim, or next
+    /// to a settled triangle), so that points are added in rows from the rim inwards.
     void enqueue(Index t)
     {
         State& state = state_[index(t)];
@@ -240,7 +241,7 @@ private:
         const Vec2 middle = (a + b) / 2;
         const Vec2 inward = Vec2(a.y() - b.y(), b.x() - a.x()) / base_length;
         const Vec2 apex = mesh_.at(tri.corner[static_cast<std::size_t>(base)]) - middle;
-        // The centre of the circle through a, b and the apex is at this height over the middle of the base.
+        // Height of the triangle's circumcentre over the middle of the base.
         const double half = base_length / 2;
         const double height = (apex.squaredNorm() - half * half) / (2 * apex.dot(inward));
         const double wanted = std::min(kEquilateral * mean_size(tri.corner), kTooSkinny * shortest);

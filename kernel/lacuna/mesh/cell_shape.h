@@ -52,12 +52,12 @@ std::span<const std::pair<int, int>> side_corners(CellShape shape);
 /// The corners of each face of a solid, counter-clockwise seen from outside; the fourth is -1 for a triangle.
 std::span<const Quad> face_corners(CellShape shape);
 
-/// A side of a cell, as in the sets of sides of a file. Numbers 1, 2, … are the faces of a solid or the edges
-/// of a shell, as Abaqus numbers them. For a shell, 0 is the side that its normal points to, and -1 the
-/// opposite side.
+/// A side of a cell, as in the sets of sides of a file. Sides 1, 2, … are the faces of a solid or the edges
+/// of a shell, as Abaqus numbers them. A shell has two more sides: 0 is its face in the direction of its
+/// normal, and -1 its face in the opposite direction.
 struct CellSide {
     std::int64_t element = 0; ///< number of the cell
-    int side = 0;
+    int side = 0;             ///< number of the side
     friend constexpr auto operator<=>(const CellSide&, const CellSide&) = default;
 };
 

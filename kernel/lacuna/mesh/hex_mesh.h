@@ -125,8 +125,8 @@ struct SkinQuad {
     Index patch;
 };
 
-/// Numbering of cells and skin by kind, as in files: hexahedra before wedges, quads before triangles.
-/// Computed without arrays, as triangles come last in `quads`.
+/// Numbering of cells and skin by kind, as in files: hexahedra before wedges, quads before triangles. It
+/// needs no arrays, because triangles come last in `HexMesh::quads`.
 class CellKinds {
 public:
     explicit CellKinds(const HexMesh& mesh)

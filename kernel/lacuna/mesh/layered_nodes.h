@@ -12,18 +12,17 @@
 
 namespace lacuna::mesh {
 
-/// Computes the nodes of a swept mesh a few layers at a time, instead of storing them. The same call returns
-/// the same bits each time.
-///
-/// The mesh is a complete `HexMesh`, except that `nodes` holds the source nodes only.
+/// Functions that compute the nodes of a swept mesh on demand, a few layers at a time. Repeated calls return
+/// the same nodes, bit for bit. The `HexMesh` itself is complete, except that its `nodes` are those of the
+/// source only.
 struct LayeredNodes {
     /// Compute the nodes of levels [first, last) into `out`, (last - first) × nodes_per_layer points. Level 0
     /// is the source, level `layers` the target.
     std::function<void(int first, int last, std::span<Vec3> out, const RunContext& context)> place;
     /// A node of the skin, by its number.
     std::function<Vec3(Index node)> on_skin;
-    /// For order 2: the middle nodes from level `first` to level `last`, those on both levels included, in
-    /// the order of `MiddleNodes::nodes`; else null.
+    /// Compute the middle nodes from level `first` to level `last`, including those on both levels, in the
+    /// order of `MiddleNodes::nodes`. Null for a mesh of order 1.
     std::function<void(int first, int last, std::span<Vec3> out, const RunContext& context)> place_middles{};
 };
 
@@ -66,7 +65,7 @@ inline int layers_at_once(const HexMesh& mesh)
 }
 
 /// Layers [first, last) as a mesh that stores its nodes and has no patches.
-/// @param before  another such mesh, whose memory is reused; may be empty
+/// @param before  result of an earlier call, whose memory is reused; may be empty
 HexMesh make_layers(const LayeredMesh& layered, int first, int last, HexMesh before = {},
                     const RunContext& context = {});
 

@@ -23,8 +23,8 @@ std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads)
 
 std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_count)
 {
-    // Sides with the same nodes are found through their lower node: each node has a list of the sides at it,
-    // which is as short as its valence.
+    // Sides with the same nodes are found through their lower node: each node has a list of the sides of
+    // which it is the lower node. This list is not longer than the valence of the node.
     struct SideUse {
         Index high, first, second; ///< the other node, and the sides of one or two quads; kRimSide: none yet
     };

@@ -14,8 +14,9 @@
 
 namespace lacuna::mesh {
 
-/// Maps the node numbers of one mesh to the numbering of several meshes with shared nodes. Its memory grows
-/// with the number of shared nodes only.
+/// Several meshes share nodes and have one common numbering. This class maps the node numbers of one of these
+/// meshes to the common numbering. Nodes that an earlier mesh has keep their common number; all others get
+/// consecutive numbers. Memory: 8 bytes for each shared node, and 4 bytes for 256 nodes.
 class NodeNumbers {
 public:
     NodeNumbers() = default;
@@ -37,6 +38,7 @@ public:
     [[nodiscard]] std::size_t fresh() const { return nodes_ - known_.size(); }
     [[nodiscard]] const std::vector<std::pair<Index, Index>>& known() const { return known_; }
 
+    /// The common number of a node of the mesh.
     [[nodiscard]] Index of(Index node) const
     {
         const std::size_t block = index(node) >> kShift;
@@ -50,7 +52,7 @@ public:
     /// The `i`-th node (from 0) of those that no earlier mesh has.
     [[nodiscard]] std::size_t fresh_node(std::size_t i) const
     {
-        std::size_t low = 0, high = known_.size(); // number of shared nodes before it
+        std::size_t low = 0, high = known_.size(); // bounds of the number of shared nodes before node i
         while (low < high) {
             const std::size_t middle = (low + high) / 2;
             if (index(known_[middle].first) - middle <= i)
@@ -84,11 +86,11 @@ struct ContactPair {
     std::array<std::string, 2> groups; ///< of the skins: first the slave's, whose nodes are constrained, then
                                        ///< the master's
     bool tied = true;
-    double tolerance = 0;              ///< no node of a tie is further from the master [model length]
+    double tolerance = 0;              ///< maximum distance of tied slave nodes from the master [length]
     std::array<std::size_t, 2> sets{}; ///< in a deck: indices of the groups' sets of sides
 };
 
-/// One of several swept meshes with shared nodes, which may not store its nodes. Holds references only.
+/// One of several swept meshes with shared nodes. It may compute its nodes on demand. Holds references only.
 struct LayeredPart {
     const HexMesh& mesh;
     const LayeredNodes* nodes = nullptr; ///< null: the mesh stores its nodes

@@ -11,7 +11,8 @@ namespace lacuna::mesh {
 
 namespace {
 
-/// The motion from one level of nodes to the next. It is known only if it is rigid: a translation or a screw.
+/// The motion from one level of nodes to the next, if it is rigid (a translation or a screw). Otherwise the
+/// class uses straight lines between the levels.
 class Step {
 public:
     Step(const HexMesh& mesh, std::size_t layer)

@@ -43,12 +43,13 @@ struct BoundarySide {
 std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads);
 
 /// Values of `opposite_sides()` for sides without a partner.
-inline constexpr Index kRimSide = -1; ///< on the boundary: no other quad has it
-inline constexpr Index kBadSide = -2; ///< three or more quads have it, or two in the same direction
+inline constexpr Index kRimSide = -1; ///< on the boundary: no other quad has the side
+inline constexpr Index kBadSide = -2; ///< three or more quads have the side, or two in the same direction
 inline constexpr Index kNoSide = -3;  ///< side 2 of a triangle
 
-/// The partner of each side: the same side, opposite in direction, in the neighbouring quad; or `kRimSide`,
-/// `kBadSide` or `kNoSide`. Side i of quad q has the number 4q + i. O(quads).
+/// The partner of each side: the number of the side of the neighbouring quad that has the same nodes in the
+/// opposite direction. `kRimSide`, `kBadSide` or `kNoSide` if there is none. Side i of quad q has the number
+/// 4q + i. O(quads).
 /// @pre every corner lies in [0, node_count)
 std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_count);
 

@@ -41,9 +41,12 @@ struct CellNodes {
 /// The middle nodes of a swept mesh of order 2. Their numbers follow from level and layer; nothing is stored
 /// for each cell.
 ///
-/// They are ordered level by level: first the middle nodes on the level, those of the source sides and, for
-/// hex27, of the quads; then the middle nodes of the layer above it, those of the vertical edges over the
-/// source nodes and, for hex27, of the vertical faces over the source sides and of the cells.
+/// Order of the middle nodes, for each level and the layer above it:
+/// 1. on the level: of the sides of the source's quads;
+/// 2. on the level, hex27 only: of the quads;
+/// 3. in the layer: of the vertical edges over the source's nodes;
+/// 4. in the layer, hex27 only: of the vertical faces over the sides of the source's quads;
+/// 5. in the layer, hex27 only: of the cells.
 struct MiddleNodes {
     bool full = false;           ///< true: hex27; false: hex20
     std::vector<Segment> sides;  ///< sides of the source quads, each once, lower node first
@@ -97,8 +100,8 @@ CellNodes cell_nodes(const HexMesh& mesh, std::size_t cell);
 /// after each corner, the centre. @pre i < skin_count()
 CellNodes skin_nodes(const HexMesh& mesh, std::size_t i);
 
-/// Coordinates of a cell's nodes as those of a hex27: missing nodes are computed with the shape functions of
-/// the hex20 or hex8. @pre 8, 20 or 27 points
+/// The 27 nodes of a hex27 for a cell with 8, 20 or 27 nodes. Missing nodes are computed with the shape
+/// functions of the hex8 or hex20. @pre 8, 20 or 27 points
 std::array<Vec3, 27> as_hex27(std::span<const Vec3> places);
 
 } // namespace lacuna::mesh

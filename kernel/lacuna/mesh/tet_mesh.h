@@ -43,9 +43,10 @@ constexpr CellNodes distinct_corners(const Hex& hex)
     return corners;
 }
 
-/// The nodes of a solid, given in the order of its shape, in the form that `quality::measure_cells()` takes.
-/// A hexahedron keeps its nodes. Other shapes become a hexahedron of 8 or 20 nodes with merged corners,
-/// followed by the centre of a pyramid's base. Middle nodes on the faces of wedges are left out.
+/// Convert the nodes of a solid to the form that `quality::measure_cells()` takes. A hexahedron keeps its
+/// nodes. Any other shape becomes a hexahedron of 8 or 20 nodes with merged corners. The centre of a
+/// pyramid's base, if it is a node, is appended. Middle nodes on the faces of wedges are left out.
+/// @param nodes  in the order of `CellShape`.
 CellNodes merged_nodes(CellShape shape, std::span<const Index> nodes);
 
 /// A closed surface of triangles and quads, oriented outward.
@@ -66,10 +67,10 @@ using TetMesher = std::function<TetMesh(const ClosedSkin&, const RunContext&)>;
 
 /// The middle nodes of pyramids and tetrahedra of order 2. Their numbers follow those of the corners.
 struct TetMiddles {
-    bool full = false;           ///< pyramid bases and quads of the skin have a node in their centre
+    bool full = false;           ///< whether pyramid bases and quads of the skin have a node in their centre
     std::vector<Vec3> nodes;     ///< [model length]
-    std::vector<Index> of_cells; ///< middle nodes of each cell, in the order of `CellShape`
-    std::vector<Index> of_skin;  ///< middle nodes of each quad and triangle of the skin, likewise
+    std::vector<Index> of_cells; ///< middle nodes of all cells, each in the order of `CellShape`
+    std::vector<Index> of_skin;  ///< middle nodes of all cells of the skin, each in the order of `CellShape`
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
 };
@@ -100,7 +101,7 @@ struct TetPart {
 CellShape cell_shape(const TetPart& mesh, bool is_pyramid);
 CellShape skin_shape(const TetPart& mesh, bool is_quad);
 
-/// All nodes of a cell: in the order of its shape, or in the form of `merged_nodes()`.
+/// All nodes of a cell: in the order of `CellShape`, or in the form of the `merged_nodes()` above.
 CellNodes cell_nodes(const TetPart& mesh, std::size_t cell);
 CellNodes merged_nodes(const TetPart& mesh, std::size_t cell);
 /// A quad or triangle of the skin, and all its nodes, as for a `HexMesh`.

@@ -56,7 +56,8 @@ public:
                 reached.insert({low, high});
             }
         }
-        // If all walls share one table, a wall that touches no rim continues the rows of the wall below it.
+        // A wall that touches no rim is accepted if all walls have the same table: its rows continue those of
+        // the walls between it and the rim.
         const std::vector<FaceId> walls = volume_.faces(Role::wall);
         for (const auto& [wall, table] : tables_.of) {
             const auto has_table = [&, table = table](FaceId other) { return tables_.at(other) == table; };

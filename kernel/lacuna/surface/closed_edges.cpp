@@ -83,7 +83,7 @@ std::vector<double> directions(const Circle& circle, std::size_t steps)
 }
 
 /// Pair two closed edges. Find the position on the target's edge that corresponds to the start of the
-/// source's edge by the smallest rotation.
+/// source's edge, as `alike_closed_edges()` describes.
 ClosedPair turned(const Circle& low, const Circle& high)
 {
     constexpr std::size_t kSteps = 360; ///< one degree is accurate enough for the start of an edge

@@ -85,11 +85,11 @@ std::optional<EndQuads> quads_of(const OpenVolume& volume, Role end, std::string
     return std::nullopt;
 }
 
-/// Match the quads of two meshes as graphs, starting from known sides.
-/// @param image  for each node of `from`, the corresponding node of `to`. The caller sets it for the nodes of
-///         `sides`, and the function sets it for all other nodes.
-/// @return  for each quad of `from`, the corresponding quad of `to`. Empty if the graphs differ, or if some
-///         quads are not reached.
+/// Pair the quads of two meshes with the same connectivity, starting from sides of the first mesh.
+/// @param image  for each node of the first mesh, the corresponding node of the second mesh. The caller sets
+///         it for the nodes of `sides`, and the function sets it for all other nodes.
+/// @return  for each quad of the first mesh, the corresponding quad of the second mesh. Empty if the
+///         connectivity differs, or if some quads are not reached.
 std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, std::span<const Quad> all_to,
                                                std::vector<Index>& image, std::span<const Segment> sides)
 {
@@ -178,8 +178,8 @@ GivenTarget given_target(const OpenVolume& volume, std::span<const LinkingSurfac
 std::vector<LinkingSurface> align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> columns,
                                              std::vector<LinkingSurface> links, bool wedges)
 {
-    // Columns and side lines determine the rotation of a loop. A round loop that has neither is rotated
-    // together with a loop that does.
+    // Columns and side lines determine the rotation of a loop (`sure`). The rotation of the other loops
+    // follows from the pairing of the quads, which starts at a loop with a determined rotation.
     std::vector<std::size_t> unsure;
     const LinkingSurface* sure = nullptr;
     for (std::size_t b = 0; b < links.size(); ++b) {

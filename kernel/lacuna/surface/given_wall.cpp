@@ -38,8 +38,9 @@ public:
             const bool beside = !ways.empty() && !ways.back().faces->empty();
             const std::size_t before = ways.empty() ? 0 : ways.back().node;
             if (!add_way(stub.at, stub.from_target, stub.points, stub.faces, ways)) refuse_stub(stub);
-            // Two adjacent given columns may have one more node between them, which was added to a rim with
-            // an odd number of sides. More nodes mean that the opposite rim has another mesh.
+            // Between two adjacent given columns, a rim may have one more node, which was added because its
+            // number of sides was odd. Further nodes belong to the mesh of the opposite rim, which is then
+            // different.
             if (beside && (ways.back().node + count_ - before) % count_ > 2) refuse_stub(stub);
         }
         take_ways(up, false);
@@ -93,8 +94,8 @@ private:
             }
             const std::size_t end = next.node > way.node ? next.node : next.node + count_;
             for (std::size_t i = way.node; i < end && !way.faces->empty(); ++i) {
-                // A node between two given columns was added to a rim with an odd number of sides. It splits
-                // the given quads there.
+                // A node between two given columns was added because the rim's number of sides was odd. It
+                // splits the given quads there.
                 const double share = static_cast<double>(i - way.node) / static_cast<double>(end - way.node);
                 for (std::size_t k = 0; k < way.faces->size(); ++k) {
                     const std::size_t low = std::min(layer(k), layer(k + 1));

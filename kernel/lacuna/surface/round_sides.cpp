@@ -51,8 +51,8 @@ double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_
                  IntervalProgram& program)
 {
     const double deep = kRowsOfRadius * bulge.radius, angle = bulge.turn / parts / 2;
-    // The line behind the rows of one part. Its corner is on the ray through the middle of the part, and its
-    // ends are on the rays through the ends of the part. All three points are at the same depth below the
+    // The inner line of one part has three points: a corner on the ray through the middle of the part, and
+    // its ends on the rays through the ends of the part. All three have the same distance from the round
     // side.
     const double left = bulge.radius - deep;
     const double line = 2 * parts * std::hypot(left * std::sin(angle), left * (1 - std::cos(angle)));

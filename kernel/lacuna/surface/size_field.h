@@ -13,7 +13,8 @@ using SizeField = std::function<double(const Vec3&)>;
 /// Size fields on faces.
 struct SizeFields {
     SizeField edge;  ///< length of the quads' sides
-    SizeField row{}; ///< height of rows along the loops, which smoothing keeps; empty: no rows
+    /// Height of the rows of quads along the loops; smoothing keeps these heights. Empty: no such rows.
+    SizeField row{};
 };
 
 } // namespace lacuna::surface

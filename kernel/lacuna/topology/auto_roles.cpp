@@ -24,15 +24,15 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Costs of a bent end, of a candidate with one end, and of a candidate without ends. Rule of thumb: two flat
-/// ends are likelier than one end, one end is likelier than none, and any flat end is likelier than a bent
-/// one.
+/// Maximum cost of a bent end, cost of a candidate with one end, and cost of a candidate without ends. Rule
+/// of thumb: two flat ends are likelier than one end, one end is likelier than none, and any flat end is
+/// likelier than a bent end.
 constexpr double kBent = 1.0;
 constexpr double kOneEnd = 0.05;
 constexpr double kNoEnd = 0.1;
-/// Cost of a connected set of sharp wall edges that does not run from end to end, and of a window (a rim of
-/// the walls without any neighbour). Rule of thumb: the shoulder of a stepped bore is more likely part of a
-/// stepped end than a wall.
+/// Cost of a connected set of sharp wall edges that does not run from end to end, and cost of a window (a rim
+/// of the walls whose edges are all free). Rule of thumb: the shoulder of a stepped bore is more likely part
+/// of a stepped end than a wall.
 constexpr double kLoose = 0.3;
 /// Weight of walls whose normals point along the sweep. It multiplies the mean squared cosine between wall
 /// normals and sweep, which is 0 for a straight sweep and at most a quarter for a bend by 90°. Tuned on 277
@@ -49,12 +49,12 @@ constexpr double kBothSteps = 0.05;
 /// Number of faces listed for each role in a message.
 constexpr std::size_t kMostFaces = 12;
 
-/// Limit on the candidates that are kept and sorted at once, the likeliest ones. If all of them fail, the
-/// next ones are enumerated. Few are ever tried, and to sort eight times as many took longer than to find
-/// them.
+/// Maximum number of candidates that are kept and sorted at once: those with the lowest costs. If all of them
+/// are invalid, the candidates with the next higher costs are found. Usually few candidates are tried;
+/// sorting eight times as many took longer than finding them.
 constexpr std::size_t kMostKept = std::size_t{1} << 15;
 
-constexpr std::size_t kGap = kNoIndex - 1; ///< in place of a target rim: the walls end at a free loop
+constexpr std::size_t kGap = kNoIndex - 1; ///< not the index of a target rim: the walls end at a free loop
 
 /// A candidate: the patches that are its ends, with `kNoIndex` for a missing end.
 struct Reading {
@@ -141,7 +141,7 @@ public:
     /// @param after  only candidates that rank after this one
     [[nodiscard]] std::vector<Reading> by_cost(const std::optional<Reading>& after)
     {
-        std::vector<Reading> found; // heap, the least likely on top
+        std::vector<Reading> found; // heap with the candidate of the highest cost on top
         const auto add = [&](const Reading& reading) {
             if (after && !(*after < reading)) return;
             if (found.size() == kMostKept) {
@@ -163,7 +163,7 @@ public:
             if (stands_alone(a) && (!tally_ || tally_->can_hold(a)))
                 add({a, kNoIndex, kOneEnd + bend(map_.patches[a]) + map_.patches[a].slant});
         }
-        // First the patches that may pair with the most others.
+        // Sort the patches so that those that can form pairs with the most other patches come first.
         std::vector<std::size_t> order(map_.patches.size());
         for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -175,7 +175,7 @@ public:
             vertex_seen_.clear();
             for (const VertexId v : map_.patches[order[i]].vertices) vertex_seen_.add(v.index());
             for (std::size_t k = i + 1; k < order.size(); ++k) {
-                if (tally_ && !tally_->can_hold(order[i], order[k])) break; // nor with those that follow
+                if (tally_ && !tally_->can_hold(order[i], order[k])) break; // the following ones fail as well
                 const auto [a, b] = std::minmax(order[i], order[k]);
                 if (parts == 2 && tally_->hang_together(a, b)) continue;
                 if (are_apart(order[i], order[k]))
@@ -191,7 +191,8 @@ public:
     [[nodiscard]] bool holds(const Reading& reading)
     {
         check_cancelled(context_);
-        if (reading.source == kNoIndex || reading.step != kNoIndex) return true; // checked with its cost
+        // Candidates without ends or with steps were checked when they were found.
+        if (reading.source == kNoIndex || reading.step != kNoIndex) return true;
         if (flat_alone_ && has_fans(reading)) return false;
         windows_ = 0;
         const std::vector<WallPart> parts = wall_parts(reading);
@@ -201,8 +202,8 @@ public:
         for (const WallPart& part : parts) {
             if (part.several || (part.source_rim == kNoIndex && part.target_rim == kNoIndex)) return false;
             if (part.source_rim == kNoIndex || part.target_rim == kNoIndex) {
-                // A ring of walls that ends at a free loop: beyond the loop, the end is missing, or another
-                // ring of walls between the loop and the end.
+                // The walls must be a ring that ends at a free loop. Either the end beyond this loop is
+                // missing, or the walls between this loop and the end.
                 if (part.rims != 2 || part.euler != 0) return false;
                 if (part.source_rim == kNoIndex) {
                     ++behind_gap;
@@ -213,7 +214,7 @@ public:
                 ++before_gap;
                 continue;
             }
-            // Walls with a handle form no ring, however the missing faces are closed.
+            // Walls with a handle form no ring, whatever faces are added.
             if (part.euler != 2 - static_cast<long>(part.rims)) return false;
             std::size_t& now = served[part.source_rim];
             if (now != kNoIndex && now != part.target_rim) return false;
@@ -294,7 +295,7 @@ private:
                 if (found != touched.end()) found->second |= end;
             }
         }
-        // The walls of a step join parts of the same end.
+        // The walls of a step run between two patches of one end, so they need to touch that end only.
         const bool steps = reading.step != kNoIndex;
         const unsigned wanted = steps ? (stepped_[reading.step].source.size() > 1 ? 1U : 0U) |
                                             (stepped_[reading.step].target.size() > 1 ? 2U : 0U)
@@ -337,7 +338,7 @@ private:
         for (const std::size_t source : flat) {
             check_cancelled(context_);
             const Vec3 way = -map_.patches[source].normal;
-            // Inclined faces that are no ends would be cut by the void faces below the steps.
+            // Patches of both ends: those with the source's normal, and those with the opposite normal.
             std::vector<std::size_t> same, ahead;
             double ends = 0;
             for (const std::size_t p : flat) {
@@ -359,6 +360,7 @@ private:
                                            [&](VertexId v) { return vertex_seen_.has(v.index()); });
             };
             if (std::ranges::any_of(ahead, touches)) continue; // layers would have no height there
+            // All other faces must be parallel to the sweep: void faces below the steps would cut them.
             const double leaning = std::max(0.0, way.dot(whole * way) - ends) / std::max(area - ends, 1e-300);
             if (!(leaning < kStraight)) continue;
             with_steps_.push_back({largest(same), largest(ahead), std::sqrt(leaning), stepped_.size()});
@@ -399,12 +401,12 @@ private:
 
     [[nodiscard]] static double bend(const SmoothPatch& end)
     {
-        // Times four: a patch that bends by 90° has flatness 0.90 and costs 0.4, one that bends by 180° the
-        // full cost.
+        // With the factor 4, a patch that bends by 90° (flatness 0.90) gets 40 % of the maximum cost, and a
+        // patch that bends by 180° gets the maximum.
         return kBent * std::min(1.0, 4 * (1 - end.flatness));
     }
 
-    /// Whether a patch has neighbours on its whole rim.
+    /// Whether a patch can be the only end: it has neighbours on its whole rim.
     [[nodiscard]] bool stands_alone(std::size_t p) const
     {
         const std::vector<Rim>& all = map_.patches[p].rims;
@@ -434,7 +436,8 @@ private:
         return bend(s) + bend(t) + (s.slant + t.slant) / 2 + facing / 2 + unlike;
     }
 
-    /// Cost of treating all faces as walls; empty unless they are tubes that can be capped.
+    /// Cost of the candidate in which all faces are walls. Empty if the faces are not tubes whose free loops
+    /// can be ends.
     [[nodiscard]] std::optional<double> cost_of_no_end() const
     {
         double cost = 0;
@@ -451,8 +454,8 @@ private:
         return kNoEnd + cost / static_cast<double>(parts.size());
     }
 
-    /// Cost of two free loops as missing ends. Empty if they cannot be ends: one lies inside the other in the
-    /// same plane, or a cap would only extend the face next to it.
+    /// Cost of two free loops as the rims of missing ends. Empty if they cannot be such rims: one loop lies
+    /// inside the other in the same plane, or an end on a loop would only continue a face next to the loop.
     [[nodiscard]] std::optional<double> cap_cost(const Rim& first, const Rim& second) const
     {
         double cost = 0;
@@ -485,8 +488,8 @@ private:
     }
 
     /// Whether several wall edges leave one vertex of an end. Such ends are invalid, because only one line of
-    /// nodes leaves a vertex. Where three rounded rims of a box meet, this distinguishes its floor from its
-    /// sides.
+    /// nodes leaves a vertex. Example: a box with rounded rims, three of which meet at a corner. Its floor is
+    /// a valid end, its sides are not.
     [[nodiscard]] bool has_fans(const Reading& reading) const
     {
         const auto is_wall = [&](std::size_t p) {

@@ -13,7 +13,7 @@ namespace lacuna::topology {
 struct RoleCandidate {
     Roles roles;
     VolumeClass value = VolumeClass::closed;
-    double cost = 0;                  ///< lower is more likely; 0: flat, parallel ends, normal to the sweep
+    double cost = 0;                  ///< lower: more likely; 0: flat, parallel ends, normal to the sweep
     long irregular = 0;               ///< lower bound of the source's irregular nodes (valence other than 4)
     std::vector<std::string> reasons; ///< sentences for the user
 };
@@ -28,31 +28,33 @@ struct RoleOptions {
 /// Find candidates for the roles of `faces` (source, target, walls): the cheapest one and those that cost at
 /// most `margin` more, in ascending order of cost.
 ///
-/// Faces that meet smoothly form one patch, and an end is a patch. If no candidate is valid, flat faces with
-/// smooth neighbours become patches of their own, such as the floor of a pocket with a rounded rim; then at
-/// most one edge of the walls may leave each vertex of an end.
+/// Faces that meet smoothly form one patch, and an end is a patch. If no candidate is valid, the search is
+/// repeated in another way: flat faces with smooth neighbours, such as the floor of a pocket with a rounded
+/// rim, become patches of their own, and at most one edge of the walls may leave each vertex of an end.
 ///
-/// Two ends (classes I–III, closed) must have equal numbers of loops and no common vertex. Each connected set
-/// of walls must join one loop of the source to one loop of the target; a ring of missing walls may lie
-/// between. One end (IV) must have walls on its whole rim, and each ring of walls must lead to a free loop.
-/// Without ends (V), the walls must be tubes with two free loops each. If no face is missing, the ends may
-/// also consist of several flat patches at different heights: one end of all patches that face in one
-/// direction, the other of all that face in the opposite direction.
+/// Conditions by class:
+/// - Two ends (classes I–III, closed): the ends have equal numbers of loops and no common vertex. Each
+///   connected set of walls joins one loop of the source to one loop of the target. Where a ring of walls is
+///   missing between the ends, the walls on either side of it join a loop of an end to a free loop.
+/// - One end (IV): the end has walls on its whole rim, and each ring of walls leads to a free loop.
+/// - No end (V): the walls are tubes with two free loops each.
+/// - No missing face (closed): the ends may also consist of several flat patches at different heights. One
+///   end then has all patches that face in one direction, the other end all patches that face in the opposite
+///   direction.
 ///
-/// Candidates are ranked by how flat the ends are, how perpendicular to the walls, how similar in area, and
-/// how directly they face each other. Walls whose normals point along the sweep, and sharp edges between
-/// walls that do not run from end to end, add to the cost.
+/// The cost of a candidate is low if the ends are flat, perpendicular to the walls, of similar area, and
+/// opposite to each other. Walls whose normals point along the sweep add to the cost, and so do sharp edges
+/// between walls that do not run from end to end.
 ///
-/// An end meshed with quads has at least |4 (2 − rims) − quarter turns of its rims| irregular nodes
-/// (Gauss-Bonnet).
+/// `RoleCandidate::irregular` follows from the Gauss-Bonnet theorem: an end meshed with quads has at least
+/// |4 (2 − rims) − quarter turns of its rims| irregular nodes.
 /// @return empty if no candidate is valid.
 /// @throw InvalidInput  the faces cannot be oriented.
 /// @throw Cancelled
-///
-/// Pairs of ends are first filtered by Euler numbers, because walls between two ends have no handles. Of the
-/// pairs of faces of a plate with a thousand holes, only a few are then checked in full.
-/// @note  O(facets + checked pairs of patches + candidates checked · edges between patches); memory for
-///         candidates is bounded by some 10 MB.
+/// @note  Euler numbers exclude most pairs of ends, because walls between two ends have no handles: for a
+///         plate with a thousand holes, only a few pairs are checked in full. O(facets + checked pairs of
+///         patches + candidates checked · edges between patches); memory for candidates is bounded by some
+///         10 MB.
 std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector<FaceId>& faces,
                                            const RoleOptions& options = {}, const RunContext& context = {});
 

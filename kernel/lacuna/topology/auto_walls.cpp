@@ -20,7 +20,8 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Limit on the steps of the search for choices. A hundred sheets that meet in threes need about this many.
+/// Maximum number of steps of the search for choices. A hundred sheets, of which three meet at each shared
+/// edge, need about this number.
 constexpr std::size_t kMostSteps = 100000;
 
 /// All faces connected to the faces `from` over shared edges, without crossing the faces `without`.
@@ -44,7 +45,7 @@ struct Choice {
     double volume = 0;      ///< enclosed, with free loops closed by cones to their centres [model length³]
 };
 
-/// Enumerates the choices. A sheet is a set of faces connected by edges that no other faces use.
+/// Enumerates the choices of sheets, as `find_walls()` defines them.
 class Sheets {
 public:
     Sheets(const Model& model, std::vector<FaceId> ends, const std::vector<FaceId>& reached,
@@ -117,7 +118,7 @@ private:
         for (const EdgeId edge : edges_[sheet]) count_[edge.index()] += sign;
     }
 
-    /// Whether adding a sheet left no edge with more than two uses.
+    /// Whether each edge of a sheet has at most two uses, now that the sheet is counted.
     [[nodiscard]] bool fits(std::size_t sheet) const
     {
         return std::ranges::all_of(edges_[sheet], [&](EdgeId edge) { return count_[edge.index()] <= 2; });
@@ -208,8 +209,9 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
     return result;
 }
 
-/// Faces next to connected walls that run from the end to the rim of the cavity. These walls do not surround
-/// a step of the end, so a face next to them, such as a ledge at a side wall, is a wall too.
+/// The faces next to each connected set of walls that reaches from the end to the rim of the cavity. The
+/// walls around a step of the end do not reach the rim. A flat face next to walls that do, such as a ledge at
+/// a side wall, is therefore no step but a wall.
 std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>& walls,
                                    const std::vector<FaceId>& end, const std::vector<FaceId>& cavity)
 {
@@ -228,8 +230,8 @@ std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>
     return found;
 }
 
-/// The walls of an end in a cavity. Empty if a face of the end, or another end on the same skin, lies outside
-/// the cavity: the solid itself is then the volume.
+/// The walls of an end in a cavity. Empty if a face of the end lies outside the cavity, or if the other end
+/// is on the same skin but outside the cavity: the solid itself is then the volume.
 std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<FaceId>& source,
                                           const std::vector<FaceId>& target, const RunContext& context)
 {
@@ -237,7 +239,7 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
     WallChoice result{cavity_round(model, end, context), {}, {}, true, {}, {}};
     for (const FaceId face : end)
         if (!std::ranges::binary_search(result.walls, face)) return std::nullopt;
-    const std::vector<FaceId> skin = reachable_from(model, result.walls, {}); // with faces outside the cavity
+    const std::vector<FaceId> skin = reachable_from(model, result.walls, {}); // its faces outside the cavity
     for (const std::vector<FaceId>* list : {&source, &target}) {
         for (const FaceId face : *list) {
             if (std::ranges::binary_search(skin, face)) return std::nullopt;

@@ -53,9 +53,10 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     cone.axis = spread.axis.col(0);
     const double lean = std::abs(spread.centre.dot(cone.axis));
     if (lean < kParallel || lean > 1 - kFlatShare) return {}; // a cylinder or a plane
-    // For an axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h. With the slope s taken from
-    // the normals, this is linear in c and two other unknowns. Facets are chords, so the slope is then fitted
-    // again about that axis.
+    // A point p of the cone at the height h along the axis is at the distance s h + t from the axis, with a
+    // slope s. If the axis goes through c, |p|² - 2 c·p + |c|² = (s h + t)², with p and c taken normal to the
+    // axis. The slope follows from the normals, so this is linear in c and two other unknowns. Normals of
+    // facets are less accurate than corners, so the slope is then fitted to the corners about this axis.
     const std::vector<Index> used = corner_points(face);
     const auto count = static_cast<Eigen::Index>(used.size());
     const Vec3 origin = model.at(used.front());

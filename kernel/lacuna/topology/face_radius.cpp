@@ -36,8 +36,8 @@ std::optional<Round> fitted(const Eigen::MatrixXd& points)
     return Round{radius, centre + mean.transpose()};
 }
 
-/// Whether facets are too few for the shape, so that neighbouring ones meet at a corner. Example: the facets
-/// of a cube, whose corners lie on a sphere.
+/// Whether facets are too few for the shape, so that the angle between neighbouring facets is that of a
+/// corner. Example: the facets of a cube, whose corners lie on a sphere.
 bool is_angular(const Model& model, const Face& face, const RoundShape& shape)
 {
     const double least = std::cos(kBendBelow / 2 * std::numbers::pi / 180);

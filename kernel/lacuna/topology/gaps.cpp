@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The closest edge of another part is found with one pair of trees per binary digit of the part numbers: any
-// two different parts differ in at least one digit.
+// Each free edge needs the closest edge of another part. For each binary digit of the part numbers there are
+// two trees: one of the edges of parts with digit 0, one of the edges of parts with digit 1. Two different
+// parts differ in at least one digit, so a search in the trees of the opposite digits finds every other part,
+// and never the edge's own part.
 #include <lacuna/topology/shared/gaps.h>
 
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -41,8 +43,8 @@ std::vector<Gap> gaps(const Model& model, const RunContext& context)
     const auto part = [&](EdgeId edge) { return part_of[model.uses_of_edge(edge).front().face.index()]; };
 
     const double reach = kWidestSewn * model.diagonal;
-    // Each free edge's points and, last, its middle. The middle decides which edge is reported as the
-    // closest, because several edges are equally close to an end.
+    // The points of each free edge, followed by its middle. The edge that is closest to the middle is
+    // reported, because several edges may be equally close to an end of the edge.
     std::vector<std::vector<Vec3>> places(free.size());
     std::vector<std::vector<Gap>> nearest(free.size());
     for (std::size_t i = 0; i < free.size(); ++i) {

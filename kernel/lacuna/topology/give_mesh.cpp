@@ -20,8 +20,8 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Largest distance of a rim node of the mesh from the face's loop, as a share of the longer side beside the
-/// node. A chord over a sixth of a circle is off by an eighth of its length.
+/// Maximum distance of a rim node of the mesh from the face's loop, as a share of the longer of the two sides
+/// at the node. For comparison: a chord over a sixth of a circle deviates by an eighth of its length.
 constexpr double kOffRim = 0.25;
 
 /// A node on a loop of the face.
@@ -190,9 +190,9 @@ private:
         return found == move_.end() ? point : found->second;
     }
 
-    /// Where facets have collapsed onto an edge, because their corners are three successive points of the
-    /// edge, remove them together with the middle point. There must be one such facet for each use of the
-    /// edge.
+    /// Remove facets that have collapsed onto an edge: their corners are three successive points of the edge.
+    /// The middle point is removed with them. This is done only if there is one such facet for each use of
+    /// the edge.
     void drop_folded(EdgeId id)
     {
         std::vector<Index>& points = model_[id].points;
@@ -219,8 +219,8 @@ private:
         }
     }
 
-    /// Surface parameter differences along the facet sides of a face, from the point with the lower number to
-    /// the one with the higher.
+    /// For each facet side of a face: the difference of the surface parameters, from the point with the lower
+    /// number to the point with the higher number.
     static std::unordered_map<std::uint64_t, Vec2> steps_of(const Face& face)
     {
         std::unordered_map<std::uint64_t, Vec2> steps;
@@ -255,7 +255,8 @@ private:
                 const auto to = param.find(moved(point));
                 if (to == param.end()) continue;
                 const Vec2 own = param.at(point), shift = to->second - own;
-                // The vertex of a closed edge is at both its ends, one period apart on a periodic surface.
+                // The vertex of a closed edge has two positions along the edge: its start and its end. Their
+                // surface parameters may differ by a period. Use the position that is nearer to the point.
                 const bool closing = to->first == chain.points.back() && (last - own).norm() < shift.norm();
                 shifts.insert_or_assign(point, closing ? Vec2(last - own) : shift);
             }
@@ -397,7 +398,7 @@ private:
         }
     }
 
-    /// The rim node nearest to a vertex, which moves there.
+    /// The rim node to which a vertex moves: the nearest one.
     /// @throw InvalidInput  the vertex would have to move, but edges of other faces end at it.
     std::size_t node_at(VertexId vertex, double at, const std::vector<RimNode>& rim, double length)
     {
@@ -409,7 +410,8 @@ private:
                 best = i;
         }
         const double off = (model_.at(rim[best].point) - place).norm();
-        // The loop itself, or a closed edge, has two edge ends at a vertex; more belong to other faces.
+        // Two edge ends at a vertex belong to the loop, or to a closed edge. Further ones are edges of other
+        // faces.
         if (off > model_.tolerance && ends_[vertex.index()] > 2) {
             throw InvalidInput("topology.mesh_misses_vertex",
                                "the mesh for {} has no node at {}, where edges of other faces end; its "
@@ -546,7 +548,7 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
                 throw InvalidInput("topology.nodes_off_edge",
                                    "the nodes for {} are not in order along the edge", edge);
             last = place.at;
-            // The ends are the vertices, which move to their nodes.
+            // The end nodes use the points of the vertices, and these points move to the nodes' positions.
             const Index point = i == 0 ? old.front()
                                 : end  ? old.back()
                                        : static_cast<Index>(model.points.size());

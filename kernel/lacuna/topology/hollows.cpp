@@ -39,7 +39,7 @@ Vec3 facet_centre(const Model& model, FaceId face)
     return (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
 }
 
-/// Whether a shell is an interface of two mesh regions, with no space on either side.
+/// Whether a shell is an interface between two mesh regions, with material on both sides.
 bool is_between_regions(const Model& model, const std::vector<FaceId>& shell)
 {
     return std::all_of(shell.begin(), shell.end(),
@@ -78,10 +78,13 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
     return most;
 }
 
-/// Faces that stand in a cavity. Without the faces of the cavity, the skin falls into parts, bounded by the
-/// cavity's rims. The largest part is the outside, and the rims between it and the cavity are the mouths. A
-/// part that reaches up to a mouth does not stand in the cavity. A through bore is a separate part and does
-/// not connect other parts; it stands in the cavity if none of its rims is on the outside.
+/// Faces of bodies that stand in a cavity. If the faces of the cavity are removed, the skin falls into parts,
+/// bounded by the cavity's rims.
+/// - The part with the largest area is the outside. The rims between the outside and the cavity are the
+///   cavity's mouths.
+/// - Any other part stands in the cavity if all of it lies below the mouths.
+/// - Other hollows with two or more rims, such as through bores, are removed too, so that they do not connect
+///   parts. Such a hollow stands in the cavity if none of its rims is on the outside.
 /// @pre oriented
 std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity,
                                 const std::vector<Hollow>& hollows)
@@ -195,7 +198,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
 
 std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows)
 {
-    std::map<std::set<EdgeId>, std::size_t> first; // first hollow with a rim
+    std::map<std::set<EdgeId>, std::size_t> first; // first hollow with a rim of these edges
     geometry::UnionFind hang(hollows.size());
     for (std::size_t h = 0; h < hollows.size(); ++h) {
         for (const Rim& rim : rims(model, hollows[h].faces)) {
@@ -236,7 +239,7 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
 
 std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const RunContext& context)
 {
-    constexpr double kInside = 0.6; // above the winding number on the skin itself, 0.5
+    constexpr double kInside = 0.6; // above 0.5, the winding number of a point on the skin itself
     std::set<int> own;
     for (const Face& face : volume.faces) own.insert(face.tag);
     std::optional<geometry::FacetTree> tree; // built for the first other shell only: most models have none

@@ -15,16 +15,16 @@
 
 namespace lacuna::topology {
 
-/// Whether an entity comes from the input, or was created by closing the volume (the paper's v-Topology).
+/// Whether an entity comes from the input, or from closing it (v-Topology in @cite mukherjee_2014_open).
 enum class Origin { given, made_void };
 
-/// How the facets of a face were made (the paper's v-Geometry).
+/// How the facets of a face were made (v-Geometry in @cite mukherjee_2014_open, with its algorithms).
 enum class Geometry {
-    given,
+    given,       ///< from the input
     newell,      ///< Algorithm 4: triangulated in its Newell plane
-    transfinite, ///< Algorithm 6
+    transfinite, ///< Algorithm 6: transfinite interpolation between four sides
     annular,     ///< Algorithm 5: between two closed edges
-    followed,    ///< transfinite, following the motion of the given walls
+    followed,    ///< transfinite interpolation that follows the motion of the given walls
     parallel,    ///< the shape of the given end, moved to the rim of the walls
 };
 
@@ -34,7 +34,7 @@ struct Vertex {
     Origin origin = Origin::given;
 };
 
-/// A chain of model points between two vertices; a closed edge has one vertex, both `from` and `to`.
+/// A chain of model points between two vertices. A closed edge has one vertex, which is both `from` and `to`.
 struct Edge {
     int tag = 0;
     Origin origin = Origin::given;
@@ -61,8 +61,8 @@ struct Loop {
 struct Face {
     int tag = 0;                     ///< the tag that Gmsh shows for the same file
     std::string name;                ///< a physical group, part, element set; may be empty
-    std::vector<std::string> groups; ///< all sets, surfaces and properties the face belongs to in the file
-    /// Regions on the one or two sides of the face (solids, else shells), each with all its names.
+    std::vector<std::string> groups; ///< all sets, surfaces and properties of the file that contain the face
+    /// All names of the one or two regions beside the face: solids or, in files without solids, shells.
     std::vector<std::vector<std::string>> regions;
     /// "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete" or "void".
     std::string kind = "discrete";
@@ -94,7 +94,7 @@ struct ModelParts {
     double diagonal = 0;        ///< diagonal of the bounding box [model length]
     double tolerance = 0;       ///< points closer than this coincide [model length]
     std::string source;         ///< the file(s) it was read from, for messages
-    std::vector<Message> notes; ///< what loading dropped or left unconnected, one sentence each
+    std::vector<Message> notes; ///< entities that loading dropped or left unconnected, one sentence each
 
 private:
     friend class Model;
@@ -103,9 +103,9 @@ private:
     std::vector<std::size_t> first_use_; ///< start of each edge's uses, then the end; empty before `finish()`
 };
 
-/// Parts that no longer change, and the faces at each edge. Made by `ModelBuilder::finish()`. A variable can
-/// be assigned another model; copies share their data. The parts live as long as a model that has them: store
-/// the model that a call returns in a variable before iterating over its faces.
+/// Faces, edges and vertices that no longer change, and the uses of each edge. Made by
+/// `ModelBuilder::finish()`. Copies of a model share its data, which exist as long as one of the copies:
+/// store the model that a call returns in a variable before iterating over its faces.
 class Model {
 public:
     Model(); ///< an empty model
@@ -141,12 +141,12 @@ public:
     const std::vector<Message>& notes;
 };
 
-/// Makes a model, from nothing or from the parts of another one. Functions read the parts made so far as a
-/// `const Model&`, which has no uses of edges yet.
+/// Makes a model, from nothing or from the parts of another model. The builder converts to a `const Model&`,
+/// so that functions can read the parts made so far; this view has no uses of edges yet.
 class ModelBuilder : public ModelParts {
 public:
     ModelBuilder() = default;
-    /// Move the model in to save a copy of parts that no other model shares.
+    /// Start from the parts of a model. They are not copied if it is moved in and no other model shares them.
     explicit ModelBuilder(Model from);
     ModelBuilder(const ModelBuilder&) = delete;
     ModelBuilder& operator=(const ModelBuilder&) = delete;
@@ -178,7 +178,7 @@ public:
 
 private:
     Model made_{{std::shared_ptr<const ModelParts>(), this}}; ///< a view of the parts made so far
-    int edge_tag_ = 1, face_tag_ = 1; ///< next free tags of void entities, as far as the lists were searched
+    int edge_tag_ = 1, face_tag_ = 1; ///< next free tags of void entities, for the first `tagged_…` entities
     std::size_t tagged_edges_ = 0, tagged_faces_ = 0;
 };
 
@@ -198,8 +198,8 @@ Vec3 face_area_vector(const Model& model, FaceId face);
 bool has_quads_all_over(const Face& face);
 /// Facets that are not halves of the face's given quads. O(facets log).
 std::vector<Triangle> loose_triangles(const Face& face);
-/// Whether the face's given cells can be its mesh: quads cover it or, if `wedges` are allowed, quads and
-/// triangles of a face that was given as a mesh.
+/// Whether the face's given cells can be its mesh. This is so if given quads cover the face, or, with
+/// `wedges`, if the face was given as a mesh of quads and triangles.
 bool has_cells_to_keep(const Face& face, bool wedges);
 /// Every face of a model, in its order.
 std::vector<FaceId> all_faces(const Model& model);

@@ -82,7 +82,7 @@ void check_walls_touch(const OpenVolume& volume)
     }
 }
 
-/// Walls that end at a vertex and do not contain the edge.
+/// The walls that have a vertex, but not the given edge.
 std::vector<FaceId> walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
 {
     std::vector<FaceId> walls;
@@ -330,8 +330,8 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
     check_walls_touch(volume);
     check_ends_apart(volume);
     if (roles.source.empty() && !roles.target.empty()) {
-        // Class IV reversed: the target is swept as if it were the source. The names are swapped back when
-        // the mesh is made.
+        // Class IV with a target only: it is swept as if it were the source. The names of the ends are
+        // exchanged again when the mesh is made.
         for (Role& role : volume.role) role = role == Role::target ? Role::source : role;
         volume.turned_round = true;
     }

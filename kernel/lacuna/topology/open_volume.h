@@ -12,8 +12,9 @@
 
 namespace lacuna::topology {
 
-/// The five classes of the paper's Table 1, and `closed` for a volume without missing faces. Class 0 is not
-/// in the paper: a source alone, swept along a path that the caller gives.
+/// The five classes of open volumes (Table 1 of @cite mukherjee_2014_open), `closed` for a volume without
+/// missing faces, and class 0, which is not in that table: a source alone, swept along a path that the caller
+/// gives.
 enum class VolumeClass { closed, I, II, III, IV, V, zero };
 
 std::string_view to_string(VolumeClass value);
@@ -26,14 +27,14 @@ struct Roles {
     std::vector<FaceId> source, target, walls;
 };
 
-/// The faces of one void, with their roles. The model contains only these faces, consistently oriented, and
-/// outward if they enclose a volume. Closing the volume adds void entities to the model.
+/// The faces of one void, with their roles. The model contains only these faces. They are oriented
+/// consistently, and outward if they enclose a volume. Closing the volume adds void entities to the model.
 struct OpenVolume {
     Model model;
     std::vector<Role> role; ///< for each face of `model`
     std::optional<VolumeClass> override_class;
-    bool turned_round = false; ///< only a target was given, so source and target were swapped
-    bool full_turn = false;    ///< a closed ring of walls only, swept round the whole turn onto its own start
+    bool turned_round = false; ///< whether only a target was given, so that it became the source
+    bool full_turn = false;    ///< whether the walls form a closed ring, swept by 360° onto its start
 
     [[nodiscard]] std::vector<FaceId> faces(Role wanted) const;
     /// For each vertex of the model, whether it is on a wall.
@@ -68,7 +69,8 @@ struct Rim {
 };
 
 /// The border of a set of faces as closed chains of the edges that the set uses once; longest first. Where
-/// several chains meet in a vertex, each chain continues at the other side of the same fan of faces.
+/// several chains meet in a vertex, a chain arrives and leaves on the two sides of one fan of faces (faces
+/// round the vertex that are connected over edges).
 std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces);
 
 /// The loops of a face without its seams, which are inside the face. A tube with a seam has two border loops;
@@ -79,7 +81,7 @@ std::vector<Loop> border_loops(const Model& model, FaceId face);
 std::vector<EdgeId> free_edges(const OpenVolume& volume);
 std::vector<Rim> free_loops(const OpenVolume& volume);
 
-/// Class by Table 1, with the reasons for the user.
+/// The class of a volume, with the reasons for the user.
 struct Classification {
     VolumeClass value = VolumeClass::closed;
     std::vector<Rim> free_loops;
@@ -88,8 +90,8 @@ struct Classification {
     std::vector<std::string> reasons;
 };
 
-/// The class of a volume; an override wins.
-/// @throw InvalidInput  the override contradicts the faces; says in what.
+/// Find the class of a volume. If `override_class` is set, that is the class.
+/// @throw InvalidInput  `override_class` contradicts the faces; names the contradiction.
 Classification classify(const OpenVolume& volume);
 
 /// A face, an edge or a vertex for a message: `face 12`, `face 12 "lid"`, `edge 3 (vertices 4-9)`,

@@ -125,7 +125,8 @@ void measure(const Model& model, SmoothPatch& patch, DirectedSides& sides)
     patch.rims = rims(model, patch.faces);
     sort_once(patch.edges);
     sort_once(patch.vertices);
-    // Inside an edge there is one side more than there are points.
+    // An edge has one segment more than it has inner points, so without its points and segments the Euler
+    // number is larger by 1.
     patch.inner_euler = euler_number(model, patch.faces, sides) - static_cast<long>(patch.vertices.size()) +
                         static_cast<long>(patch.edges.size());
 }

@@ -23,10 +23,10 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Number of alternating projections of a point onto plane and surface; each at least halves the error if
-/// they meet at more than 45°.
+/// Maximum number of alternating projections of a point onto plane and surface. If these meet at more than
+/// 45°, each projection at least halves the error.
 constexpr int kLaid = 12;
-/// Bisection steps along a curve's parameter: the digits of a double.
+/// Number of bisection steps along a curve's parameter: the number of bits of a double.
 constexpr int kHalvings = 52;
 
 SectionPlace place_between(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
@@ -203,8 +203,7 @@ private:
     const geometry::Plane& plane_;
     std::vector<signed char> side_; ///< for each point: -1 behind the plane, 0 on it, 1 in front of it
     std::vector<Step> steps_;
-    std::map<std::uint64_t, std::pair<Index, Index>> behind_; ///< sides in the plane whose facets are behind
-                                                              ///< it
+    std::map<std::uint64_t, std::pair<Index, Index>> behind_; ///< sides in the plane, of facets behind it
     std::unordered_set<std::uint64_t> before_;
     std::map<SectionPlace, std::vector<std::size_t>> from_;
     std::vector<char> used_;
@@ -241,7 +240,8 @@ private:
     {
         return place.b < 0 ? place.a : made_.at(place);
     }
-    /// The points of a walk from one of its places on; the first is repeated at the end of a closed walk.
+    /// The points of a walk, starting at its place `first`. In a closed walk, the first point is repeated at
+    /// the end.
     [[nodiscard]] std::vector<Index> points_along(const SectionWalk& walk, std::ptrdiff_t first = 0) const
     {
         std::vector<Index> points;
@@ -532,7 +532,7 @@ private:
     /// Part number of each facet, with the walks as separators.
     [[nodiscard]] std::vector<std::size_t> parts_of(const Face& face, DirectedSides& sides) const
     {
-        // Few corners are on walks, and reading a flag is cheaper than looking up a side.
+        // Test the corners before the sides: few corners are on walks, and a flag is cheaper than a look-up.
         const auto is_on = [&](Index p) { return on_walk_[index(p)]; };
         const bool met = std::ranges::any_of(face.triangles, [&](const Triangle& t) {
             return std::ranges::count_if(t, is_on) > 1 &&

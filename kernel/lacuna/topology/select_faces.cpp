@@ -39,7 +39,7 @@ bool lies_in(const Model& model, FaceId face, const Eigen::AlignedBox3d& box)
     return Eigen::AlignedBox3d(box.min() - slack, box.max() + slack).contains(box_of(model, face));
 }
 
-/// The faces that `touching` names, which are not selected themselves, and their edges.
+/// The faces that `touching` names, and their edges. These faces themselves are not selected.
 struct Touched {
     std::vector<bool> face, edge;
 };
@@ -108,7 +108,8 @@ bool is_called(const Face& face, const std::string& name)
 
 Vec3 mean_normal(const Model& model, FaceId face)
 {
-    // Share of the area below which the summed normals are noise: around a closed skin they cancel.
+    // The summed area vectors cancel around a closed skin. Below this share of the area, their direction is
+    // only a rounding error.
     constexpr double kRounding = 1e-2;
     const Vec3 vector = face_area_vector(model, face);
     return vector.norm() > kRounding * face_area(model, face) ? Vec3(vector.normalized())

@@ -25,7 +25,8 @@ std::string free_name(const std::string& name, const std::set<std::string>& take
     }
 }
 
-/// Whether a face's name is its own: not a name of its solids, and not a number.
+/// Whether a face's name belongs to this face alone: it is neither the name of one of its solids nor a
+/// number.
 bool is_own_name(const Face& face)
 {
     const auto begins = [&](const char* word) { return face.name.starts_with(word); };

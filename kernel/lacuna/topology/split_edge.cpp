@@ -17,9 +17,9 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Allowed error of `curve_beside()` along the chord, as a share of the tolerance, and largest number of
-/// steps. Each step divides the error by about the square of the number of chords in a turn, so three are
-/// enough. Eight is a bound for curves with uneven parameters.
+/// Allowed error of `curve_beside()` along the chord, as a share of the tolerance, and maximum number of
+/// steps. Each step divides the error by about the square of the number of chords per turn, so three steps
+/// are usually enough. More are needed on curves whose parameter is far from proportional to the arc length.
 constexpr double kShareOfTolerance = 1e-3;
 constexpr int kSteps = 8;
 
@@ -32,7 +32,7 @@ std::vector<FaceId> users_of(const Model& model, EdgeId edge)
     return users;
 }
 
-/// Where an edge is split: at its point `at`, or at a new point after that one.
+/// Where an edge is split: at its point number `at` or, if `made` is set, at a new point after this one.
 struct SplitPlace {
     std::size_t at = 0;
     std::optional<Vec3> made{}; ///< the new point

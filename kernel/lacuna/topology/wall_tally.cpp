@@ -32,18 +32,19 @@ WallTally::WallTally(const PatchMap& map, std::size_t free_loops) : map_(map), t
     whole_.contacts = static_cast<long>(free_loops);
 }
 
-/// Count the fans: sets of corners round a vertex that are connected over edges. Also count by how many each
-/// patch reduces the number of fans if it is removed.
+/// Count the fans. Fan: a set of corners of patches round a vertex that are connected over edges. Also count
+/// by how many the number of fans decreases if a patch is removed.
 void WallTally::count_fans()
 {
-    // A corner is identified by the use that leaves it. The next one round its vertex is across that use.
+    // A corner has the number of the use that leaves it. The next corner round the vertex lies beyond that
+    // use.
     const auto next = [&](std::size_t use) {
         return map_.of_use[use ^ 1] == kNoIndex ? kNoIndex : number_of(map_.next[use ^ 1]);
     };
     std::vector<bool> has_before(map_.of_use.size(), false), seen(map_.of_use.size(), false);
     for (std::size_t u = 0; u < map_.of_use.size(); ++u)
         if (map_.of_use[u] != kNoIndex && next(u) != kNoIndex) has_before[next(u)] = true;
-    std::vector<std::size_t> run; // the patches of a fan's corners, adjacent repeats dropped
+    std::vector<std::size_t> run; // patches of a fan's corners in order; consecutive equal ones listed once
     const auto count_fan = [&](std::size_t first) {
         ++whole_.fans;
         run.clear();
@@ -59,12 +60,12 @@ void WallTally::count_fans()
             ++taken_[run.front()].fans;
             return;
         }
-        // Removing a patch splits the fan at each of its runs.
+        // At each entry of a patch in this list, the removal of the patch splits the fan.
         for (const std::size_t p : run) --taken_[p].fans;
         if (round) {
             std::sort(run.begin(), run.end());
             run.erase(std::unique(run.begin(), run.end()), run.end());
-            for (const std::size_t p : run) ++taken_[p].fans; // the first one only opens the closed fan
+            for (const std::size_t p : run) ++taken_[p].fans; // the first split only opens a closed fan
         } else {
             ++taken_[run.front()].fans;
             ++taken_[run.back()].fans;
@@ -91,7 +92,7 @@ long WallTally::at_most(std::size_t p) const
 
 bool WallTally::can_hold(std::size_t a, std::size_t b) const
 {
-    // A rim is a free loop, or contains an edge of an end.
+    // Each rim of the walls is a free loop or contains an edge of an end. This bounds the number of rims.
     const long free_loops = whole_.contacts;
     return map_.patches.size() == 2 ||
            euler_ + whole_.fans - whole_.edges + at_most(a) + at_most(b) + free_loops >= 2;

@@ -19,8 +19,8 @@ struct Bend {
     /// the number of right angles by which it turns [model length]. If this number exceeds one, the product
     /// is multiplied by a factor between 0 (one right angle) and 1 (a full turn).
     double length = 0;
-    /// Direction of the edge, or of the cylinder's axis. A sweep in this direction follows the bend, or has the
-    /// bend in an end. Empty for other curved edges.
+    /// Direction of the edge, or of the cylinder's axis. A sweep in this direction follows the bend, or has
+    /// the bend in an end. Empty for other curved edges.
     std::optional<Vec3> axis;
 };
 
@@ -49,8 +49,8 @@ struct CutPlane {
 /// 4. planes midway between two features that reduce `length_to_cut()`, the best first (feature: bends whose
 ///    faces are the same or share edges). The normals of these planes are those of flat faces and the common
 ///    normals of two axes;
-/// 5. planes through the axes of cylinders that cross each other, and of bores that leave through a bent face.
-///    Such a plane divides a bore into two grooves.
+/// 5. planes through the axes of cylinders that cross each other, and of bores that leave through a bent
+///    face. Such a plane divides a bore into two grooves.
 /// @param most  largest number of planes between features.
 std::vector<CutPlane> cut_planes(const topology::OpenVolume& volume, const std::vector<Bend>& bends,
                                  std::size_t most);

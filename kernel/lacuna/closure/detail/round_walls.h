@@ -19,8 +19,8 @@ namespace lacuna::closure {
 ///
 /// Rims that need a wall are paired along their common axis. If their number is odd, one rim that a flat face
 /// could close as well is added, so that the walls are shortest. If no rim needs a wall, the two rims of two
-/// unconnected parts are paired. Loops on the wall between two rims,
-/// such as those of branches, are holes of that wall.
+/// unconnected parts are paired. Loops on the wall between two rims, such as those of branches, are holes
+/// of that wall.
 /// @return  the free loops that are left.
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);

@@ -19,8 +19,9 @@ namespace lacuna {
 /// A job that runs on its own thread while the thread that started it continues. If the context allows one
 /// thread only, or the system cannot create a thread, the job runs inside `take()`.
 ///
-/// The job gets a context with the remaining threads (at least one) and the same cancel flag. Its progress is
-/// not reported. Its notes are collected and logged by `take()`, so that the host is called from one thread.
+/// The job gets a context of its own: with the remaining threads (at least one) and the cancel flag of the
+/// given context, but without progress. Lines that the job logs are collected, and `take()` passes them on,
+/// so that the host is called from one thread only.
 template <class Result>
 class Background {
 public:

@@ -20,7 +20,7 @@
 /// Serialisation of values for other processes of the same program, on machines with the same byte order.
 namespace lacuna {
 
-/// Bytes received from another process do not follow the protocol.
+/// Thrown if bytes received from another process do not follow the protocol.
 class ProtocolError : public Error {
 public:
     explicit ProtocolError(std::string_view what) : Error("core.protocol", "{}", what) {}

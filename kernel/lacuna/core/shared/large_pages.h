@@ -7,15 +7,15 @@
 
 namespace lacuna {
 
-/// Ask the system to back this memory with large pages, before its first use: 100 MB then cause about 50 page
-/// faults instead of 25,000. A hint only: results do not depend on it.
+/// Ask the system to use large pages for this memory: 100 MB then cause about 50 page faults instead of
+/// 25,000. Call this before the memory is first used. The system may ignore it; results do not depend on it.
 void use_large_pages(void* memory, std::size_t bytes);
 
 /// Write a byte to each page, so that the system clears the page now and the first writer need not wait for
 /// page faults. Stops when all pages are done or `enough` is set. @pre the memory holds nothing yet
 void clear_pages(void* memory, std::size_t bytes, const std::atomic<bool>& enough);
 
-/// A vector of `count` values, in large pages if it is large.
+/// Reserve memory for `count` values in a vector, in large pages if it is large.
 template <class Value>
 void reserve_large(std::vector<Value>& values, std::size_t count)
 {

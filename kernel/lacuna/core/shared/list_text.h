@@ -17,7 +17,7 @@ std::string full_list(const Items& items, Text text)
     return list;
 }
 
-/// "a, b, c, d, e, f and 3 more": at most `most` items and a count, to keep messages short.
+/// "a, b, c, d, e, f and 3 more": the first `most` items, and the number of the others. Keeps messages short.
 template <class Items, class Text>
 std::string short_list(const Items& items, Text text, std::ptrdiff_t most = 6)
 {

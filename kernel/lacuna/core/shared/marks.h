@@ -10,7 +10,8 @@
 
 namespace lacuna {
 
-/// A set of integers below a fixed count. Clearing it is O(1), for repeated searches over a mesh or model.
+/// A set of integers below a fixed count. Clearing is O(1), so that one set can serve many searches over a
+/// mesh or model.
 class Marks {
 public:
     explicit Marks(std::size_t count = 0) : of_(count, 0) {}
@@ -39,8 +40,8 @@ public:
     bool add(Index i) { return add(index(i)); }
 
 private:
-    std::vector<std::uint32_t> of_; ///< for each integer, the round in which it was last added
-    std::uint32_t now_ = 1;
+    std::vector<std::uint32_t> of_; ///< for each integer, the value of `now_` when it was last added
+    std::uint32_t now_ = 1;         ///< increased by each `clear()`
 };
 
 } // namespace lacuna

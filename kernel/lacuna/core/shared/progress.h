@@ -16,7 +16,8 @@ inline void report_progress(const RunContext& context, std::string_view stage, d
     if (context.progress) context.progress(stage, share);
 }
 
-/// The context of a part of a call: shares of the part are reported as shares in [from, to] of the call.
+/// The context of a part of a call. If the part reports the share s, `from` + s (`to` - `from`) is reported
+/// for the call.
 /// @param call  must outlive the context
 inline RunContext part_of(const RunContext& call, double from, double to)
 {

@@ -8,7 +8,7 @@
 
 namespace lacuna {
 
-/// Items numbered anew in the order in which they are first used; items that are not used are left out.
+/// Gives items new numbers in the order in which they are first used. Items that are not used get no number.
 template <class Item>
 class Renumbered {
 public:
@@ -29,7 +29,7 @@ public:
     /// The new number of an item; -1 if it has not been used so far.
     [[nodiscard]] Index known(Index item) const { return number_[index(item)]; }
 
-    std::vector<Item> used; ///< in their new order
+    std::vector<Item> used; ///< the used items, by their new numbers
 
 private:
     const std::vector<Item>& items_;

@@ -21,7 +21,8 @@ std::array<Index, N> rising(std::array<Index, N> corners)
     return corners;
 }
 
-/// A quad, or a triangle {a, b, c, c}, by its corners in increasing order; -1 for the missing one.
+/// Key of a quad or of a triangle {a, b, c, c}: its corners in increasing order. For a triangle, -1 stands
+/// for the missing corner.
 inline Quad face_key(Quad face)
 {
     if (face[2] == face[3]) face[3] = -1;
@@ -35,9 +36,9 @@ struct NumberedCell {
     friend auto operator<=>(const NumberedCell&, const NumberedCell&) = default;
 };
 
-/// Group cells that have the same corners in any order: call `take(cells)` for each group, with increasing
-/// numbers. Groups are visited in the order of their lowest corners. The cost is linear in the cells, apart
-/// from sorting the cells that share a lowest corner.
+/// Group the cells that have the same corners in any order. Call `take(cells)` for each group; the numbers of
+/// its cells increase. Groups are visited in the order of their lowest corners. The cost is linear in the
+/// cells, except for sorting the cells that share a lowest corner.
 /// @param points  corners are in [0, points).
 /// @param each    `each(visit)` calls `visit(corners, number)` for every cell, where -1 stands for a missing
 ///                corner. It is called twice and must visit the same cells both times.

@@ -33,15 +33,16 @@ public:
 /// The processes that share one task.
 struct Team {
     int rank = 0, size = 1;
-    bool one_machine = false; ///< all run on one machine, so that each can open a file that another has open
-    /// Send a string to all and return the strings of all, by rank. Collective: waits until all have called.
+    bool one_machine = false; ///< whether all run on one machine and can open the same local file
+    /// Send a string to all processes, and return the strings of all processes, by rank. Collective: it
+    /// returns when all processes have called it.
     std::function<std::vector<std::string>(std::string own)> exchange;
     /// Open an existing file. Not collective: each process opens it for itself.
     /// @param name  the name of the file in messages. @throw BackendError
     std::function<std::unique_ptr<SharedFile>(const std::string& path, const std::string& name)> open;
 };
 
-/// Idle processes, to which tasks are given.
+/// Idle processes that wait for tasks.
 struct Crew {
     int size = 1; ///< including the caller
     /// Start a task on all processes, given its name and its input. Returns the team of the task, in which
@@ -55,13 +56,16 @@ public:
     using Error::Error;
 };
 
-/// The strings of all processes, by rank. Only valid inside `do_together()`. Null: this process works alone.
+/// Exchange strings: send `own` to all processes, and return the strings of all, by rank. Only valid inside
+/// `do_together()`.
+/// @param team  null: this process works alone, and the result has only its string.
 /// @throw TeamFailed  another process failed. The error has the code of that failure, and its message with
 ///        the number of the process.
 std::vector<std::string> gather(const Team* team, const std::string& own);
 
-/// Run `work` on all processes of a team. If it fails on one process it fails on all, at the next `gather()`
-/// or at the end, so that no process waits for one that failed. Without a team, just runs `work`.
+/// Run `work` on all processes of a team. If `work` fails on one process, the call fails on all processes: at
+/// the next `gather()`, or at the end of `work`. No process then waits for a process that failed. Without a
+/// team, the function only runs `work`.
 /// @throw  what `work` throws; TeamFailed as `gather()`; Cancelled if another process was cancelled.
 void do_together(const Team* team, const std::function<void()>& work);
 

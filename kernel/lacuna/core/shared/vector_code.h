@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Macros and types for functions compiled for several instruction sets; the widest is chosen at run time.
+/// Macros and types for functions that are compiled for several instruction sets. At run time, the version
+/// for the widest vectors that the processor supports is called.
 
 /// LACUNA_INLINE: a function that is inlined into each caller, and so compiled for the caller's instruction
 /// set. LACUNA_INLINE_BODY: the same for a lambda, written after its parameters.
@@ -51,7 +52,8 @@ template <class Body>
 }
 #endif
 
-/// Call `body`, compiled for AVX2 where the processor has it. Results are the same bit for bit.
+/// Call `body`: the version compiled for AVX2 if the processor has it, otherwise the plain version. Results
+/// of both versions are the same bit for bit.
 /// @param body  a lambda marked LACUNA_INLINE_BODY, which calls LACUNA_INLINE functions.
 template <class Body>
 auto with_avx2(const Body& body)
@@ -62,7 +64,7 @@ auto with_avx2(const Body& body)
     return body();
 }
 
-/// As `with_avx2()`, or for AVX-512 where the processor has it.
+/// As `with_avx2()`, but with the version for AVX-512 if the processor has it.
 template <class Body>
 auto with_avx512(const Body& body)
 {

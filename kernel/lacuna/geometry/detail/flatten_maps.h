@@ -49,10 +49,11 @@ Positions injective(const Facets& facets, Positions positions, double settled);
 /// Harmonic map to a disc with the area of the facets; holes are filled temporarily.
 Positions convex(const Facets& facets);
 
-/// Map facets with two loops to a plane ring, with the longer loop outside. The logarithm of the radius is
-/// proportional to a harmonic height, scaled so that small circles stay round on average. The angle is
-/// harmonic, and proportional to arc length on both loops. Returns nothing if the ratio of the radii would be
-/// too large.
+/// Map facets with two loops to a plane ring, with the longer loop outside. Two harmonic functions on the
+/// facets give the polar coordinates of a point: the logarithm of the radius is proportional to a height that
+/// is constant on each loop, and the angle is proportional to arc length on both loops. The factor of the
+/// height is chosen so that small circles stay round on average. Empty if the ratio of the radii would be too
+/// large.
 /// @pre  two loops
 Positions ring(const Facets& facets);
 

@@ -13,9 +13,10 @@ namespace lacuna::geometry {
 
 /// Solver for sparse matrices from diffusion problems, in time linear in the size of the matrix.
 ///
-/// Algorithm: smoothed aggregation (Vaněk, Mandel and Brezina 1996) with one Gauss-Seidel sweep in each
-/// direction, as preconditioner of BiCGStab (van der Vorst 1992), since mean value weights are not symmetric.
-/// The aggregates depend only on the matrix, so results are reproducible to the bit.
+/// Algorithm: smoothed aggregation (Vaněk, Mandel and Brezina 1996), with a forward and a backward
+/// Gauss-Seidel sweep on each level, is the preconditioner of BiCGStab (van der Vorst 1992). Conjugate
+/// gradients cannot be used, because matrices of mean value weights are not symmetric. The aggregates depend
+/// only on the matrix, so results are reproducible to the bit.
 class Multigrid {
 public:
     using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;

@@ -16,24 +16,28 @@ struct AffineFit {
     Vec3 to_centre{0, 0, 0};
     double rms = 0;          ///< root mean square distance of images from targets [model length]
     double max_residual = 0; ///< largest such distance [model length]
-    int rank = 3; ///< number of directions that the data determine, 0…3; images of the others are completed
+    int rank = 3; ///< number of directions whose images the data determine, 0…3; see `AffineFitter`
 
     [[nodiscard]] Vec3 operator()(const Vec3& p) const { return to_centre + linear * (p - from_centre); }
 };
 
 /// Least-squares affine fits from one set of points to several others; the factorisation is reused.
 ///
-/// Minimises the mean of |y − (L x + c)|², plus |n′ − L n|² for a pair of pseudo-normals if area vectors are
-/// given @cite roca_2010_sweep. A pseudo-normal is n·√|area|. Its length scales with the width of the rim, so
-/// a rotation with a uniform scale maps one pseudo-normal onto the other. The pair determines the image of
-/// the direction normal to a planar rim, which the points alone leave open. The map then has full rank,
-/// preserves orientation, and does not flatten or flip points outside the plane.
+/// For points x and their images y, the map p ↦ L p + c minimises the mean of |y − (L x + c)|². If area
+/// vectors are given, the term |n′ − L n|² is added, where n and n′ are the pseudo-normals of both rims @cite
+/// roca_2010_sweep. Pseudo-normal: unit normal times √|area|. Its length scales with the width of the rim, so
+/// a rotation with a uniform scale maps one pseudo-normal onto the other. Points on a planar rim do not
+/// determine the image of the direction normal to their plane; the pseudo-normals do. The map then has full
+/// rank, preserves orientation, and does not flatten or flip points outside the plane.
 ///
-/// The data do not determine a direction whose spread is below √ε of the largest spread. If one direction is
-/// missing, its image is normal to the images of the other two, and its length is the square root of the area
-/// that these two images span. If two are missing, their images follow from the smallest rotation of the
-/// remaining direction, with the same scale. Only orthogonal factorisations are used (no normal equations),
-/// so the error is ε times the condition number of the spread.
+/// A direction is undetermined if the spread of the data along it is below √ε of the largest spread.
+/// - One undetermined direction: its image is normal to the images of the other two directions, and its
+///   length is the square root of the area that these two images span.
+/// - Two undetermined directions: their images follow from the smallest rotation of the determined
+///   direction, with the same scale.
+///
+/// Only orthogonal factorisations are used (no normal equations), so the error is ε times the condition
+/// number of the spread.
 class AffineFitter {
 public:
     /// @param from       kept by reference: must outlive the fitter.

@@ -19,10 +19,10 @@ std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Tr
                                 Index start, const std::set<Index>& off, const std::set<Index>& ends,
                                 const RunContext& context = {});
 
-/// The branch of each triangle corner at a cut, for `HarmonicProblem::corner_turns`. With triangles drawn
-/// counter-clockwise and the cut drawn upwards, the triangles to the right of the cut get one turn at their
-/// corners on the cut. O(triangles).
-/// @param cut  points; consecutive ones are joined by a side.
+/// `HarmonicProblem::corner_turns` for a cut: 1 at the corners on the cut of those triangles that lie to the
+/// right of the cut, seen along the cut with triangles counter-clockwise; 0 at all other corners.
+/// O(triangles).
+/// @param cut  points; consecutive ones are joined by a side of a triangle.
 std::vector<std::array<int, 3>> turns_along(std::span<const Triangle> triangles, std::span<const Index> cut);
 
 } // namespace lacuna::geometry

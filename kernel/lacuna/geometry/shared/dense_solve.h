@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-/// Dense decompositions, each compiled once: their templates take long to compile.
+/// Dense solvers of Eigen, instantiated in one source file because their templates take long to compile.
 namespace lacuna::geometry {
 
 /// x of A x = b by LU with partial pivoting. @pre `matrix` is regular.

@@ -98,10 +98,12 @@ private:
 /// Closest point of one triangle. The result has no triangle index (-1). Degenerate triangles are allowed.
 FacetTree::Hit closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corners);
 
-/// Whether two triangles intersect. Each must extend more than `tolerance` to both sides of the other's
-/// plane, and they must overlap by more than `tolerance` along the line in which the two planes meet.
-/// Coplanar triangles must overlap by more than `tolerance`. Contact (a shared point or edge, a point on the
-/// other triangle) is no intersection.
+/// Whether two triangles intersect. Contact (a shared point or edge, a point on the other triangle) is no
+/// intersection. Conditions for triangles in different planes:
+/// - Each triangle extends more than `tolerance` to both sides of the other triangle's plane.
+/// - Along the line in which the two planes meet, the triangles overlap by more than `tolerance`.
+///
+/// Coplanar triangles intersect if they overlap by more than `tolerance`.
 /// @param tolerance  [model length], >= 0.
 bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, double tolerance);
 

@@ -39,14 +39,20 @@ struct Flattened {
 
 /// Map connected facets, which may have holes, to the plane; triangles stay counter-clockwise.
 ///
-/// Planar facets are mapped isometrically. A tube (a strip closed between two loops) becomes a ring: a tube
-/// has no nearly rigid map, and minimising its distortion would take a hundred times as long. For other
-/// facets, the least squares conformal map (Lévy et al. 2002) is made as rigid as possible by local and
-/// global steps (Liu et al. 2008). If that map flips a triangle or its boundary crosses itself, the map of
-/// least symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017) is tried, started from the
-/// conformal map and from the harmonic map to a disc; then these two maps themselves. The first one-to-one
-/// map is returned. If there is none, the map with the fewest flips is returned, and `folded` is set. The
-/// result has the area of the facets in space, and is rotated to agree best with their Newell plane.
+/// Planar facets are mapped isometrically. For curved facets, maps are computed in this order, and the first
+/// one-to-one map is returned:
+/// 1. For a tube (facets between two loops, such as the side of a cylinder): a ring. A tube has no nearly
+///    rigid map, and minimising its distortion would take a hundred times as long.
+/// 2. The least squares conformal map (Lévy et al. 2002), made as rigid as possible by local and global steps
+///    (Liu et al. 2008).
+/// 3. The map of least symmetric Dirichlet energy, by reweighted steps (Rabinovich et al. 2017) from the
+///    conformal map.
+/// 4. As 3, from the harmonic map to a disc.
+/// 5. The conformal map itself.
+/// 6. The harmonic map itself.
+///
+/// If no map is one-to-one, the one with the fewest flips is returned, and `folded` is set. The result has
+/// the area of the facets in space, and is rotated to agree best with their Newell plane.
 ///
 /// @param points     may be all points of a model.
 /// @param triangles  consistently oriented.

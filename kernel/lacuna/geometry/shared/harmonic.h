@@ -11,15 +11,16 @@
 
 namespace lacuna::geometry {
 
-/// Harmonic interpolation on a triangulation, from points with known values.
+/// Harmonic interpolation on a triangulation, from points with known values (fixed points) to all other
+/// points (free points).
 ///
-/// Each free point is a weighted mean of its neighbours, with the mean value weights of Floater (2003). These
-/// are positive for all triangle shapes, so values stay in the range of the fixed ones. A disc whose rim is
-/// mapped in order to a convex outline is mapped one-to-one (Tutte). On planar triangles, linear functions
-/// are reproduced.
+/// The value at a free point is a weighted mean of the values at its neighbours, with the mean value weights
+/// of Floater (2003). These weights are positive for all triangle shapes, so all values stay in the range of
+/// the fixed values. A disc whose rim is mapped in order to a convex outline is mapped one-to-one (Tutte). On
+/// planar triangles, linear functions are reproduced.
 ///
-/// Free points on a border have cotangent weights, limited to >= 0. They approximate the natural (Neumann)
-/// condition, independent of the directions of the diagonals.
+/// Free points on a border have cotangent weights instead, limited to >= 0. These weights approximate the
+/// natural (Neumann) boundary condition, whatever the directions of the facets' diagonals.
 struct HarmonicProblem {
     std::span<const Vec3> points;        ///< may be all points of a model; unused points are ignored
     std::span<const Triangle> triangles; ///< in either orientation
@@ -37,28 +38,29 @@ struct HarmonicProblem {
         }
     }
 
-    /// Used for values that are known only up to a period, such as the angle around a cylinder. For each
-    /// triangle corner: the number of periods to add to the value of its point to get its value on the branch
-    /// of the triangle. The corners of a triangle across the cut have different numbers; all other triangles
-    /// may have 0. Empty: all are 0.
+    /// For values that are unique only up to multiples of a period, such as the angle around a cylinder. The
+    /// surface is then cut, and values jump by a period at the cut. For each corner of each triangle: the
+    /// number of periods to add to the value at the corner's point, so that the values at the three corners
+    /// are continuous on the triangle. Triangles that do not touch the cut may have 0. Empty: all are 0.
     std::vector<std::array<int, 3>> corner_turns;
-    Eigen::RowVectorXd period; ///< k numbers; only used with corner_turns
+    Eigen::RowVectorXd period; ///< period of each of the k values; only used with corner_turns
 
     /// Use cotangent weights of either sign everywhere, which minimises the Dirichlet energy. Unlike mean
     /// value weights, they are not biased where all diagonals have the same direction. Values may leave the
     /// range of the fixed values.
     bool least_energy = false;
 
-    /// Whether nine digits suffice. If so, multigrid is used from 2,000 free points on, where it takes a
-    /// third of the time of a factorisation. If an affine function of position has the fixed values and
-    /// satisfies all means, it is the result, and no system is solved.
+    /// Whether nine correct digits suffice. If so:
+    /// 1. An affine function of position that has the fixed values is returned without solving a system, if
+    ///    at every free point it equals the weighted mean of its values at the neighbours.
+    /// 2. Otherwise, multigrid is used from 2,000 free points on, in a third of the time of a factorisation.
     bool nine_digits = false;
 };
 
-/// Solve for all points, k values each.
+/// Compute the k values at all points.
 ///
-/// @return points.size() × k, on the branch of turn 0. Rows of fixed points are bit-identical to the given
-///         ones; rows of unused points are 0.
+/// @return points.size() × k, without the periods of `corner_turns`. Rows of fixed points are bit-identical
+///         to the given ones; rows of points that no triangle uses are 0.
 /// @throw  InvalidInput "geometry.harmonic_input"  sizes do not match, or an index is out of range.
 /// @throw  BackendError "geometry.singular"  a free point is not connected to a fixed point; names it.
 /// @throw  Cancelled  between the steps; not during the factorisation.

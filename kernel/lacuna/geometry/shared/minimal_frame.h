@@ -8,13 +8,15 @@
 #include <span>
 #include <vector>
 
-/// Rotation-minimising frames @cite wang_2008_frames: from section to section by the smallest rotation.
+/// Rotation-minimising frames @cite wang_2008_frames: a frame is moved from each section to the next by the
+/// smallest rotation that maps one direction of the path onto the other.
 namespace lacuna::geometry {
 
-/// Direction of the curve through the section centres, at each centre. It is averaged over a length equal to
-/// the width of the section, because the centres of coarse sections vary slightly from step to step.
+/// Direction of the curve through the centres of sections, at each centre. The direction is averaged over a
+/// length equal to the width of the section, because the centres of sections through coarse facets scatter.
+/// @param middles  centre of each section.
+/// @param widths   width of each section.
 /// @return  unit vectors; zero if centres coincide.
-/// @pre  as many widths as middles.
 std::vector<Vec3> ways_along(std::span<const Vec3> middles, std::span<const double> widths);
 
 /// The smallest rotation from one direction to another; identity if one of them is zero.

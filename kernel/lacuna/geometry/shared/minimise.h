@@ -21,8 +21,9 @@ struct MinimiseOptions {
 /// Value of a function; sets its gradient at `x`.
 using Function = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)>;
 
-/// Limited-memory BFGS with backtracking (Nocedal and Wright, Algorithm 7.5). Steps are combinations of the
-/// gradients, so if the gradients lie in a subspace, the function is minimised in it.
+/// Minimise a function by limited-memory BFGS with backtracking (Nocedal and Wright, Algorithm 7.5). Every
+/// step is a linear combination of gradients. If all gradients lie in a subspace, so do the steps: components
+/// of the gradient that are set to zero keep their variables fixed.
 /// @return  the last point.
 Eigen::VectorXd minimise(const Function& function, Eigen::VectorXd x, const MinimiseOptions& options = {});
 

@@ -11,17 +11,18 @@
 
 namespace lacuna::geometry {
 
-/// The motion that sweeps a source to its target: the place of each source point at heights from 0 (source)
-/// to 1 (target). Either the motion is affine (`at`), or each point moves straight by a vector of its own
-/// (`reach`).
+/// The motion that sweeps a source to its target. It defines the position of each source point at every
+/// height; the height is a parameter from 0 (source) to 1 (target). The motion is either affine (`at` is
+/// set), or each point moves along a straight line by a vector of its own (`reach` is set).
 struct Motion {
     /// The map from the source to a height; the identity at 0. Null with `reach`.
     std::function<Eigen::Affine3d(double height)> at;
     /// Null, or the vector from a point of the source to its place on the target.
     std::function<Vec3(const Vec3& point)> reach;
-    std::vector<double> levels{0, 1}; ///< heights of the corners of the path: increasing, from 0 to 1
-    /// Heights at which walls get rows of facets: increasing, from 0 to 1, with all `levels`. If there is no
-    /// row between two levels, all points move straight from one to the other.
+    /// Heights of the start, the corners and the end of the path: increasing, from 0 to 1.
+    std::vector<double> levels{0, 1};
+    /// Heights at which walls get rows of facet corners: increasing, from 0 to 1. All `levels` are included.
+    /// If there is no row between two levels, all points move straight from one level to the other.
     std::vector<double> rows{0, 1};
 
     /// The place of a point of the source at a height.
@@ -52,8 +53,8 @@ Motion screw(const Vec3& point, const Vec3& direction, double angle, double pitc
 /// Twist [radian] and scale of the section at each height.
 struct Distortion {
     std::function<double(double height)> twist, scale; ///< null: none
-    double most_twist = 0;                             ///< sum of the changes of the twist [radian]
-    bool even = true;                                  ///< both change evenly with the height
+    double most_twist = 0; ///< sum of the absolute changes of the twist over the height [radian]
+    bool even = true;      ///< whether twist and scale are linear functions of the height
 };
 
 /// A motion of a distorted section: the section is twisted about a line, scaled from a point of the line, and
@@ -62,9 +63,9 @@ struct Distortion {
 /// @param direction  direction of the line at the start; of length 1.
 Motion distorted(Motion motion, const Vec3& centre, const Vec3& direction, const Distortion& by);
 
-/// Add rows of facets until, between two neighbouring rows, the motion turns by at most a full turn divided
-/// by `kRowsPerTurn`.
-/// @param turn  turn between each two levels [radian].
+/// Add rows to `Motion::rows` until the motion turns by at most a full turn / `kRowsPerTurn` between two
+/// neighbouring rows.
+/// @param turn  turn between each level and the next [radian].
 void divide_turns(Motion& motion, const std::vector<double>& turn);
 
 /// Rows of facets per full turn, as in finely faceted CAD models: chords sag by 0.1 % of the radius.

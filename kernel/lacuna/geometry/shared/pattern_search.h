@@ -10,7 +10,7 @@ namespace lacuna::geometry {
 
 /// Step lengths of `pattern_search()`.
 struct PatternSteps {
-    double scale;       ///< a length of the neighbourhood, the unit of steps
+    double scale;       ///< unit of the step lengths, such as the length of a side at the point
     double first, last; ///< longest and shortest step [of `scale`]
     double least_gain;  ///< required increase of the value for a step of length `scale`, >= 0
 };
@@ -28,10 +28,10 @@ inline std::span<const Vec2> all_around()
 /// Move a point to increase a value by pattern search: try steps in some directions, and halve the step if
 /// none succeeds.
 /// @param best   the value at `x`.
-/// @param value  called as value(const Vec2&, double floor). If the value does not exceed the floor, any
-///               number up to the floor may be returned instead.
-/// @param directions  unit vectors along which the value varies. Along other directions it could increase by
-///                    rounding only.
+/// @param value  called as value(const Vec2&, double floor). A value that does not exceed the floor may be
+///               replaced by any other number that does not exceed it, so its computation may stop early.
+/// @param directions  unit vectors of the steps. Leave out directions along which the value is constant:
+///                    there it would increase by rounding errors only.
 /// @return the value at the new `x`, at least `best`.
 template <class Value>
 double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value,

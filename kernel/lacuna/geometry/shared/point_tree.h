@@ -5,7 +5,7 @@
 
 namespace lacuna::geometry {
 
-/// A tree whose triangles are single points, in the given order.
+/// A tree of points: each point is a triangle without extent, and has its index as the triangle's index.
 inline FacetTree point_tree(std::span<const Vec3> points)
 {
     std::vector<Triangle> dots;

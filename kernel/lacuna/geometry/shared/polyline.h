@@ -19,8 +19,9 @@ std::vector<double> arc_lengths(std::span<const Vec3> points);
 double length(std::span<const Vec3> points);
 
 /// Estimated sag: the largest distance between the polyline and a smooth curve through its points [model
-/// length]. It is the largest value of length × angle / 8 over all pairs of neighbouring segments, with the
-/// longer length and the angle between them. Angles above 90° are corners and ignored.
+/// length]. Each pair of neighbouring segments gives the estimate L · α / 8, where L is the length of the
+/// longer segment and α the angle between both; the result is the largest estimate. Angles above 90° are
+/// corners and ignored.
 double sag(std::span<const Vec3> points);
 
 /// A position on a polyline: `fraction` of the segment from point `segment` to point `segment + 1`.

@@ -10,11 +10,11 @@
 
 namespace lacuna::geometry {
 
-/// Factorisation A = Pᵀ L D Lᵀ P of a symmetric matrix, which can be cancelled.
+/// Factorisation A = Pᵀ L D Lᵀ P of a symmetric matrix. Unlike Eigen's factorisation, it can be cancelled.
 ///
-/// Algorithm: row by row (Davis, Algorithm 849, as in Eigen::SimplicialLDLT), ordered by approximate minimum
-/// degree. On patches of 12,000 and 50,000 facets, results are bit-identical to Eigen's, at the same speed.
-/// Eigen's factorisation cannot be cancelled.
+/// Algorithm: row by row (Davis, Algorithm 849, as in Eigen::SimplicialLDLT); the rows are ordered by
+/// approximate minimum degree. On patches of 12,000 and 50,000 facets, results are bit-identical to Eigen's,
+/// at the same speed.
 class SparseFactor {
 public:
     /// @param lower  the lower triangle with the diagonal; entries above it are ignored.

@@ -9,7 +9,7 @@
 
 namespace lacuna::geometry {
 
-/// Distribution of points, or of unit normals: the principal axes of their second moments.
+/// Principal axes of a distribution of points or of unit normals (eigenvectors of the second moments).
 struct Spread {
     Vec3 centre{0, 0, 0}; ///< reference point of the moments
     Vec3 square{0, 0, 0}; ///< mean squared distance from the centre along each axis, ascending [length²]

@@ -10,20 +10,22 @@
 
 namespace lacuna::geometry {
 
-/// Transfinite interpolation of four sides with a frame that rotates along them: for walls along a bend.
+/// Transfinite interpolation between four sides, with a frame that rotates from bottom to top: for walls
+/// along a bend.
 ///
-/// A Coons patch adds displacements in fixed axes. Half a tube along a bent path becomes too narrow where the
-/// direction of the path differs from the directions at both ends. Here the deviations of bottom and top from
-/// their chords are expressed in a frame F(t), spanned by the direction of the sides left and right and by
-/// the chord between them:
+/// A Coons patch adds displacements in fixed axes. On half a tube along a bent path, it is therefore too
+/// narrow where the path has another direction than at both ends. Here these displacements rotate with the
+/// path. At each t, the frame F(t) is spanned by the direction of the sides left and right, and by the chord
+/// from left(t) to right(t). The point is
 ///   x(s, t) = (1−s) left(t) + s right(t) + size(t) F(t) [(1−t) b(s) + t e(s)].
-/// b and e are the deviations of bottom and top in the frames F(0) and F(1), divided by the lengths of bottom
-/// and top; size(t) interpolates between these two lengths. The patch contains all four sides. If the frame
-/// does not rotate and the lengths agree, the result is the Coons patch.
+/// b is the deviation of the bottom from its chord, in the frame F(0) and divided by the length of the
+/// bottom. e is the same for the top, in the frame F(1). size(t) interpolates between the lengths of bottom
+/// and top. The patch contains all four sides. If the frame does not rotate and the two lengths are equal,
+/// the result is the Coons patch.
 ///
-/// Around a bent seam (left and right coincide, bottom and top are closed) there is no chord. The frame then
-/// moves along the seam with minimal rotation, plus a uniform twist for which the deviations of top and
-/// bottom agree best. A circle swept along an arc gives the torus.
+/// If left and right coincide (a seam) and are bent, bottom and top are closed, and there is no chord. The
+/// frame then moves along the seam with minimal rotation, plus a uniform twist for which the deviations of
+/// bottom and top agree best. A circle swept along an arc gives the torus.
 class SweptPatch {
 public:
     /// Sides as polylines: bottom and top from left to right, left and right from bottom to top, with common
@@ -34,13 +36,12 @@ public:
     /// The point at relative arc lengths of the sides, both in [0, 1].
     [[nodiscard]] Vec3 operator()(double s, double t) const;
 
-    /// False if there is no frame, so that the patch is a Coons patch: left and right are too close together
-    /// or run along the chord between them, and they are not a bent seam.
+    /// Whether the patch has a frame. Without a frame it is a Coons patch. This is so if left and right are
+    /// not a bent seam, and are too close together or parallel to the chord between them.
     [[nodiscard]] bool turns() const { return turns_; }
 
-    /// Largest difference between the deviations of bottom and top from their chords. Each deviation is
-    /// measured in the frame of its side and relative to the length of the side. 0 if the top is the bottom
-    /// moved, rotated and scaled.
+    /// Largest difference |b(s) − e(s)| between the relative deviations of bottom and top from their chords
+    /// [-]. 0 if the top is the bottom moved, rotated and scaled.
     [[nodiscard]] double unlike() const;
 
 private:

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-/// Exact geometry that a motion makes of a source: edges from its vertices, walls from its edges, and the
-/// target.
+/// Exact geometry of a volume that a motion creates from a source: the paths of the source's vertices, the
+/// surfaces swept by its edges, and the moved source.
 namespace lacuna::geometry {
 
-/// The path of a point; its parameter is the height.
+/// The path of a point. Its parameter is the height, see `Motion`.
 class PointPath final : public ExactCurve {
 public:
     PointPath(MotionPointer motion, const Vec3& point) : motion_(std::move(motion)), point_(point) {}

@@ -10,8 +10,8 @@ namespace lacuna::geometry {
 
 /// Options of `transfinite()`.
 struct TransfiniteOptions {
-    /// How a point on a side is located: by its relative arc length (true), so that graded sides give a
-    /// graded grid, or by its number (false).
+    /// The parameter of a point on a side. True: its relative arc length, so that graded sides give a graded
+    /// grid. False: its index divided by the number of segments.
     bool by_arc_length = true;
 };
 
@@ -55,12 +55,14 @@ private:
 ///      0 ─────── 1
 ///        bottom ─▶
 ///
-/// Let S be the relative arc length on a side. Node (i, j) is at the intersection (s, t), in the unit square,
-/// of the lines from S_bottom(i) to S_top(i) and from S_left(j) to S_right(j); then
+/// Let S be the relative arc length of a side's points, and c0 … c3 the corners. In the unit square, node
+/// (i, j) is at the intersection (s, t) of two lines: from S_bottom(i) to S_top(i), and from S_left(j) to
+/// S_right(j). Its position is
 ///   x = (1−t) bottom_i + t top_i + (1−s) left_j + s right_j
 ///       − (1−s)(1−t) c0 − s(1−t) c1 − s t c2 − (1−s) t c3.
-/// So each side has more weight at the nodes near it, and a grid between sides with equal spacing has the
-/// same spacing. On a side of zero length (the tip of a triangle), S is counted by points.
+/// Each side therefore has more weight at the nodes near it, and a grid between sides with equal spacing has
+/// the same spacing. On a side of zero length (the tip of a triangle), S is the index of the point divided by
+/// the number of segments.
 ///
 /// @return (m + 1) × (n + 1) points, row by row from the bottom: node (i, j) at j * (n + 1) + i.
 /// @post   the points of the sides are returned bit for bit; straight sides with equal spacing give the

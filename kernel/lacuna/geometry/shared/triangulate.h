@@ -21,11 +21,11 @@ struct Triangulation {
 /// Options of `triangulate()`. Lengths are in the units of the points.
 struct TriangulateOptions {
     bool interior_points = true; ///< false: use the given points only
-    /// Target edge length, > 0; an upper limit of the length that is graded from the rim.
+    /// Upper limit of the target edge length at a point, > 0. Empty: no limit.
     std::function<double(const Vec2&)> size{};
-    /// Growth of edges with the distance from the rim [length per length, >= 0]. The target length at x is
-    /// the minimum of (spacing at p) + grading × |x − p| over all rim points p. With 0 it is the smallest
-    /// spacing everywhere; with infinity only `size` counts.
+    /// Growth of the target edge length with the distance from the rim [length per length, >= 0]. The target
+    /// length at x is the minimum of `size` and of (spacing at p) + grading × |x − p| over all rim points p.
+    /// With 0, the smallest spacing holds everywhere; with infinity, only `size` counts.
     double grading = 0.2;
     std::size_t max_points = 1'000'000; ///< refinement stops at this many added points
 };
@@ -36,11 +36,11 @@ struct TriangulateOptions {
 /// loop bounds a hole, a loop inside a hole is an outer loop again, and so on. The segments of the loops are
 /// kept: each is a triangle side, and no point is added on them.
 ///
-/// Inside, points are added by frontal Delaunay refinement with size-bound off-centres (Rebay 1993; Üngör
-/// 2004). A triangle is refined if it is too large, or if its circumradius exceeds √2 × its shortest side. It
-/// is left alone if the new point would lie inside the diametral circle of a rim segment, because only
-/// splitting the segment could improve it. Added points keep a minimum distance from visible points, so the
-/// refinement terminates.
+/// Inside, points are added by frontal Delaunay refinement with off-centres limited by the target size (Rebay
+/// 1993; Üngör 2004). A triangle is refined if it is too large, or if its circumradius exceeds √2 × its
+/// shortest side. It is not refined if the new point would lie inside the diametral circle of a rim segment:
+/// only a point on the segment could improve such a triangle, and segments are kept. New points keep a
+/// minimum distance from the points of the triangles that they replace, so the refinement terminates.
 ///
 /// @param loops  point numbers in order, at least 3 for each loop; the first is not repeated, and no point
 ///               occurs twice. Points in no loop are returned but not used.

@@ -12,9 +12,8 @@ namespace lacuna::geometry {
 
 /// Disjoint sets of the numbers 0 … count - 1. Each set is represented by one of its members, the root.
 ///
-/// Algorithm: a forest with path halving (Tarjan and van Leeuwen 1984). The caller chooses which root is
-/// kept, because roots are used for numbering. So there is no union by rank, and a step costs O(log n)
-/// amortised.
+/// Algorithm: a forest with path halving (Tarjan and van Leeuwen 1984), without union by rank: the caller
+/// chooses the root of a union, because roots are used for numbering. A step costs O(log n) amortised.
 class UnionFind {
 public:
     explicit UnionFind(std::size_t count) : parent_(count)

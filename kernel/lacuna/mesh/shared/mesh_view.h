@@ -104,7 +104,7 @@ public:
     }
     /// The lowest and the highest of the first `count` numbers. @pre count > 0
     [[nodiscard]] std::pair<std::int64_t, std::int64_t> bounds(std::size_t count) const;
-    /// Call `visit(first, last)` for the runs of consecutive numbers of the indices [begin, end).
+    /// Call `visit(first, last)` for each maximal range of consecutive numbers at the indices [begin, end).
     template <class Visit>
     void each_range(std::size_t begin, std::size_t end, const Visit& visit) const
     {
@@ -124,7 +124,8 @@ private:
     std::size_t first_ = 1;
 };
 
-/// Runs of consecutive indices: the end of each run, ascending, and the value that its indices share.
+/// A value for each index, stored as runs. Run: consecutive indices with the same value. An entry has the end
+/// of a run (the first index after it) and the value of the run; the ends ascend.
 using Runs = std::vector<std::pair<std::size_t, Index>>;
 
 /// Append a run that ends at `end`; the last run is extended if it has the same value.
@@ -142,10 +143,10 @@ void each_run(const Runs& runs, std::size_t begin, std::size_t end, const Visit&
     }
 }
 
-/// A mesh as the writers see it, however it is stored: a swept mesh, layers created on writing, a deck, or
-/// several meshes merged into one. Callbacks deliver nodes and cells in blocks, because a call for each cell
-/// would be slow. Several threads may call them at once, for any range and in any order; results must not
-/// differ between calls.
+/// A mesh as the writers see it, independent of its storage: a swept mesh, layers created on writing, a deck,
+/// or several meshes merged into one. Callbacks deliver nodes and cells in blocks, because a call for each
+/// cell would be slow. Several threads may call the callbacks at once, for any range and in any order.
+/// Repeated calls must return the same results.
 struct MeshView {
     /// Receives consecutive points.
     using TakePoints = std::function<void(std::span<const Vec3>)>;
@@ -157,9 +158,9 @@ struct MeshView {
         int number = 0;                    ///< number among the entities of all dimensions, >= 0
         int region = 0;                    ///< number of the region; 0: none
         std::vector<std::string> groups{}; ///< names
-        std::size_t main = 0;              ///< index in `groups` of the one to use in formats with one group
-                                           ///< per cell
-        std::vector<int> bounds{};         ///< tags of the entities that bound it, if known
+        std::size_t main = 0;              ///< index in `groups` of the group for formats with one group per
+                                           ///< cell
+        std::vector<int> bounds{};         ///< tags of the entities that bound this entity, if known
     };
     /// Cells of one shape.
     struct Block {
@@ -228,14 +229,14 @@ struct MeshView {
         std::size_t count = 0; ///< number of members
         /// Members of a set of nodes or cells, ascending; may include entities in `KeptText`.
         Numbers members{};
-        std::span<const CellSide> sides{}; ///< members of a set of sides, rising
-        bool listed = false;               ///< has a separate card, even if it equals a region
+        std::span<const CellSide> sides{}; ///< members of a set of sides, ascending
+        bool listed = false;               ///< whether the set has its own card, even if it equals a region
     };
     /// Text by the index of a node or cell, ascending.
     using TextByIndex = std::span<const std::pair<std::size_t, std::string>>;
     /// Content of a source file besides the mesh, which is copied verbatim.
     struct KeptText {
-        std::string head, cards, tail;  ///< text before the mesh, with it, and after it
+        std::string head, cards, tail;  ///< text before the mesh, with the mesh, and after it
         std::string instance;           ///< name of the only instance; names in `cards` start with it
         int highest_set = 0;            ///< highest number of a set in `cards`
         TextByIndex points;             ///< fields of a node's card after its coordinates
@@ -268,7 +269,7 @@ struct MeshView {
     std::optional<KeptText> kept;     ///< kept text, if the source file has the format to be written
     bool is_deck = false; ///< cells have regions, and entities of all dimensions are numbered together
     std::string unnamed;  ///< name for entities without groups; may be empty
-    std::string source;   ///< path of the file that some of the mesh was read from; empty: none
+    std::string source;   ///< path of the file from which a part of the mesh was read; empty: none
 
     [[nodiscard]] std::size_t cells() const;
 };
@@ -279,7 +280,8 @@ struct ViewParts {
     std::vector<Runs> of;                         ///< for each block: the part of each of its cells, from 0
     std::vector<std::pair<Index, Ranges>> points; ///< part, and indices of the points that it owns
     std::vector<Ranges> used; ///< for each part: points of its cells and ghosts, ascending
-    /// Cells of one block that are ghosts of the same parts.
+    /// Cells of one block that are owned by one part and are ghosts in the same other parts. Ghost: a cell of
+    /// another part that a part has as a copy, because the two parts share nodes.
     struct Ghosts {
         Index part = 0;      ///< part that owns the cells
         std::vector<int> of; ///< parts that have them as ghosts, ascending

@@ -18,15 +18,16 @@ struct CellFrame {
     Vec3 radial = Vec3::Zero();
     Vec3 tangential = Vec3::Zero(); ///< axis × radial
 
-    /// The axes of a material: along the column, radial but normal to the column, and normal to both.
+    /// The axes of a material: 1. along the column; 2. the radial direction, made normal to the column;
+    /// 3. normal to both.
     [[nodiscard]] std::array<Vec3, 3> material() const;
 };
 
 /// The directions of all cells, by their numbers.
 ///
-/// If a fit shows that a rigid motion takes a level of nodes to the next, the directions between these levels
-/// are tangents of that screw motion. They are then exact for straight sweeps, turns and helices. In other
-/// layers they are chords.
+/// If a rigid motion (a translation or a screw) maps one level of nodes onto the next, the directions between
+/// these levels are tangents of that motion. They are then exact for straight sweeps, turns and helices. In
+/// other layers, the directions are those of straight lines from level to level.
 /// @pre  the mesh stores its nodes. O(nodes).
 std::vector<CellFrame> cell_frames(const HexMesh& mesh);
 

@@ -14,14 +14,14 @@ namespace lacuna::surface {
 struct AlikeEnds {
     std::vector<RimPair> pairs; ///< vertices of both rims at which inner edges end
     std::map<topology::EdgeUse, topology::EdgeUse>
-        /// For each use of an inner edge by a source face: the use of the corresponding target edge in the
-        /// same direction.
+        /// For each use of an inner edge by a source face: the corresponding target edge, with the direction
+        /// that corresponds to the direction of this use.
         edges;
     std::map<FaceId, FaceId> faces; ///< target face of each source face
 };
 
-/// Match the faces of both ends as graphs, from the rims inwards. Empty if the ends are split differently.
-/// O(edges of the ends).
+/// Match the faces, edges and vertices of both ends by their connectivity, starting from the rims. Empty if
+/// the ends are split differently. O(edges of the ends).
 std::optional<AlikeEnds> alike_ends(const topology::OpenVolume& volume,
                                     std::span<const LinkingSurface> links);
 

@@ -11,12 +11,11 @@
 
 namespace lacuna::surface {
 
-/// How the target end of a linking surface without side lines is rotated if all loops rotate as one rigid
-/// body.
+/// The rotation of a linking surface without side lines between source and target, if all loops rotate as one
+/// rigid body.
 struct CommonTurn {
     double start = 0; ///< image of the source chain's start on the target chain [running length]
-    /// Position s at which the shortest path up the walls ends on the target rim, counting whole turns: see
-    /// `LinkingSurface::branch`.
+    /// As `LinkingSurface::branch` [turns].
     double branch = 0;
 };
 
@@ -32,13 +31,12 @@ std::vector<Vec3> round_points(const Chain& chain);
 /// @pre  both have `kRingPoints` points at even steps.
 double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn);
 
-/// For each linking surface without side lines, its rotation; empty for linking surfaces with side lines.
-///
-/// The rotation is that of the rigid motion that best fits the loops' centres and the points paired by side
-/// lines. Whole turns are added to the rotation of each loop, so that it differs as little as possible from
-/// the rotation that the loop's own walls give. Also empty for a loop with corresponding vertices, and for
-/// all if the motion is undetermined: for a single loop, for concentric loops, or if all linking surfaces
-/// have side lines.
+/// For each linking surface without side lines, its rotation. The rotation is that of the rigid motion that
+/// best fits the loops' centres and the points paired by side lines. Whole turns are added for each loop, so
+/// that its rotation differs as little as possible from the rotation of its own walls.
+/// @return  empty for a linking surface with side lines or with given pairs of corresponding vertices. Empty
+///         for all if the motion is undetermined: for a single loop, for concentric loops, or if all linking
+///         surfaces have side lines.
 std::vector<std::optional<CommonTurn>> common_turns(std::span<const LinkingSurface> links);
 
 } // namespace lacuna::surface

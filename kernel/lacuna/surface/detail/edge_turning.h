@@ -9,9 +9,9 @@ namespace lacuna::surface {
 
 /// The turn of an edge, or of a chain of edges, along its length.
 ///
-/// The bend at a point of the polyline is spread over the adjacent halves of both its sides. A polyline that
-/// is cut from a curve therefore turns as evenly as the curve. Sharp bends count as corners. Corners, and the
-/// vertices between edges, add nothing to the turn.
+/// The bend at a point of the polyline is spread over the adjacent half of each of its two segments. A
+/// polyline with points on a curve therefore turns as evenly as the curve. Sharp bends count as corners.
+/// Corners, and the vertices between edges, add nothing to the turn.
 class EdgeTurning {
 public:
     EdgeTurning(const topology::Model& model, EdgeId edge);

@@ -8,16 +8,16 @@
 /// An even number of sides around every free face. Internal to this folder.
 namespace lacuna::surface {
 
-/// For free faces with many quads, make the number of sides even on each of their edges. Such a face is first
-/// meshed with a quarter as many quads, using every other rim node, and then refined. Edges that also belong
-/// to other faces are not changed.
+/// For free faces with many quads, make the number of sides on each of their edges even. Such a face is first
+/// meshed with a quarter of the quads, using every other rim node; then each quad is divided into four. Edges
+/// that also belong to other faces are not changed.
 /// @param settled  further edges that are not changed.
 void make_halvable(const SeedTask& task, const FaceGrids& grids, const std::set<EdgeId>& settled,
                    Seeds& seeds);
 
-/// Make the number of sides on the rim of every free face even, because quads cannot fill an odd rim. If all
-/// sides of an odd rim are given, the longest side that no kept quad uses is divided, or, with wedges, one
-/// cell becomes a triangle. A note reports either change.
+/// Make the total number of sides around every free face even, because quads cannot fill a face with an odd
+/// total. If all sides of such a face are given, the longest side that no kept quad uses is divided or, with
+/// wedges, one cell of the face becomes a triangle. A note reports either change.
 /// @throw NotSweepable "surface.sides_asked", "surface.odd_loop"  no edge can take another side.
 void finish_even(const SeedTask& task, const FaceGrids& grids, Seeds& seeds);
 

@@ -18,8 +18,8 @@ struct FaceGrids {
     std::map<FaceId, MappedFace> mapped;              ///< faces of four sides, with their grids
 };
 
-/// Decide by the sides of each face whether it is mapped or submapped. If a minimum number of quads across
-/// narrow places is set, the sides of mapped faces get at least this number.
+/// Decide for each face whether it is mapped, submapped or free, by its corners and the lengths of its sides.
+/// With `ShapeSizing::counts_across`, the sides of mapped faces get at least `ShapeSizing::gap` mesh sides.
 /// @throw NotSweepable "surface.not_four_sided"  a face cannot be mapped although the style requires it.
 FaceGrids choose_grids(const SeedTask& task, Seeds& seeds);
 
@@ -30,8 +30,8 @@ bool is_free(const FaceGrids& grids, const Seeds& seeds, FaceId face);
 /// without folds.
 bool faces_one_way(const topology::Model& model, FaceId face, const Vec3& normal);
 
-/// Turn mapped faces into free faces if opposite sides still have different numbers of sides, because these
-/// numbers are fixed.
+/// Make a mapped or submapped face free if opposite sides still have different numbers of sides. This happens
+/// if these numbers are given.
 /// @throw NotSweepable "surface.kept_side"  the style requires such a face to be mapped.
 void free_unequal(const SeedTask& task, FaceGrids& grids, Seeds& seeds);
 

@@ -21,7 +21,8 @@ struct PointCurvature {
 
 /// The curvature at each vertex of a face's facets, in the order of `corner_points()`. It is computed from
 /// the curvature tensor (@cite cohensteiner_2003_tensor) of the facets at the vertex and at its neighbours.
-/// Empty for a plane. An angle between two facets that is larger than `crease` [radian] does not count.
+/// @param crease  larger angles between two facets are creases and do not count as curvature [radian].
+/// @return  empty for a plane.
 std::vector<PointCurvature> facet_curvature(const topology::Model& model, FaceId face,
                                             double crease = kInfinity);
 

@@ -40,11 +40,12 @@ struct FineFacetOptions {
 };
 
 /// The facets of a face, refined where they deviate too far from the exact face for quads of the given size.
+/// The facets of a CAD file are made for display and are large compared with fine quads: the distance of rim
+/// nodes, which lie on the exact edge, from such facets may be as large as a row of quads is high.
 ///
-/// Facets made for display are large compared with fine quads: rim nodes, which lie on the exact edge, would
-/// be off such facets by up to the height of a row. Midpoints of bisected sides lie on the exact edges and
-/// the exact surface. A facet with one bisected side is split in two. If two sides are bisected, the third is
-/// bisected as well and the facet is split in four. Without exact geometry the facets are not refined.
+/// Sides are bisected; the new midpoints lie on the exact edges and the exact surface. A facet with one
+/// bisected side is split in two. If two sides of a facet are bisected, the third is bisected as well, and
+/// the facet is split in four. A face without exact geometry is not refined.
 FineFacets fine_facets(const topology::Model& model, FaceId face, const SizeField& size,
                        const FineFacetOptions& options = {});
 

@@ -8,9 +8,9 @@
 /// Numbers of sides for which a grid fills a free face. Internal to this folder.
 namespace lacuna::surface {
 
-/// Give free faces numbers of sides for which a grid fills them. Faces are treated one after the other. A
-/// face whose loops constrain each other, such as a ring, comes before a face that shares its edges, such as
-/// the disc inside the ring. Edges of mapped faces are not changed.
+/// Give free faces numbers of sides for which a grid fills them. Faces are treated one after the other, those
+/// with the most loops first: a ring, whose two loops constrain each other, comes before the disc inside it.
+/// Edges of mapped and submapped faces are not changed.
 /// @param settled  further edges that are not changed.
 /// @return  `settled` and the edges whose numbers of sides are now those of a grid.
 /// @throw Cancelled

@@ -11,7 +11,7 @@
 /// Edges of both ends in one plane. Internal to this folder.
 namespace lacuna::surface {
 
-/// An edge mapped to the plane, with its cuts. A cut is a position at which the edge has a node.
+/// An edge mapped to the plane, with its cuts. Cut: a position at which the edge has a node.
 struct FlatEdge {
     EdgeId edge;
     std::vector<Vec2> line;

@@ -12,10 +12,10 @@
 namespace lacuna::surface {
 
 struct FlatEnds {
-    /// `target` has no closed edges that coincide with closed edges of the source.
+    /// Closed edges of the target that coincide with closed edges of the source are not listed in `target`.
     std::vector<FlatEdge> source, target;
     std::vector<Vec2> place;      ///< position of each node in the plane
-    std::vector<VertexId> vertex; ///< for each node; not valid if the node is no vertex of the source
+    std::vector<VertexId> vertex; ///< for each node, its vertex of the source; not valid if there is none
     std::vector<EdgeId> rim;      ///< edges of the source's rim
 };
 
@@ -33,7 +33,7 @@ FlatEdge flat_edge(const topology::Model& model, const EndsMap& map, EdgeId id, 
 FlatEnds lay_flat(const topology::OpenVolume& base, const EndsMap& map, std::span<const RimPair> pairs,
                   std::span<const ClosedPair> closed, std::span<const EdgeId> inner, const Reach& reach);
 
-/// A part of a flat edge between two consecutive cuts.
+/// A piece of a flat edge between two consecutive cuts.
 struct FlatPiece {
     std::size_t edge = 0; ///< index of the edge in `FlatEnds`
     double from_at = 0, to_at = 1;

@@ -14,8 +14,9 @@ struct PointSize {
     double size; ///< [model length]
 };
 
-/// Sizes that grow with the distance from given points: the minimum of size + grading · distance over all
-/// points. The points are in a tree of boxes; a query is O(log points) if they are spread out.
+/// A size field that grows with the distance from given points: the minimum of (size at the point) + grading
+/// · distance over all points. The points are in a tree of boxes; a query is O(log points) if they are not
+/// all close to each other.
 class GradedPoints {
 public:
     GradedPoints(std::vector<PointSize> points, double grading);

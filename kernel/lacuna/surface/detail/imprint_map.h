@@ -20,8 +20,8 @@ struct SourcePlace {
 /// Closed edges of both ends that are swept to each other.
 struct ClosedPair {
     EdgeId source, target;
-    /// Positions on the target edge of the two ends of the source edge, as fractions. They may exceed 1 on a
-    /// closed edge.
+    /// Positions on the target edge that correspond to the two ends of the source edge, as fractions of the
+    /// target edge's length. They may exceed 1, because the edge is closed.
     double from = 0, to = 1;
 };
 

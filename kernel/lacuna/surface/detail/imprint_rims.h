@@ -12,8 +12,8 @@
 /// The rims of both ends before an imprint. Internal to this folder.
 namespace lacuna::surface {
 
-/// For every vertex of the target's rim at which an inner edge ends, find a vertex of the source's rim. This
-/// is an existing vertex nearby, or a new vertex that splits the rim.
+/// Find a vertex of the source's rim for every vertex of the target's rim at which an inner edge ends: an
+/// existing vertex nearby, or a new vertex that splits an edge of the source's rim.
 /// @param inner  edges inside the target.
 /// @throw NotSweepable "surface.not_imprinted"  the rim cannot be split there.
 std::vector<RimPair> pair_rims(topology::Model& model, std::span<const LinkingSurface> links,

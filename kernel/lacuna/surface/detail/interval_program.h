@@ -45,20 +45,23 @@ struct IntervalProgram {
     std::vector<IntervalFloor> floors;
 };
 
-/// Solve all equations and floors in integers, minimizing Σ weight (n − wanted)² / n over the wishes, where n
-/// is the sum of a wish's variables. With this term, sides that are too long and sides that are too short by
-/// the same ratio cost the same. Sides shorter than 0.6 or longer than 1.6 times the wanted length cost more,
-/// in proportion to the excess.
+/// Find integers that satisfy all equations and floors, and minimize Σ weight (n − wanted)² / n over the
+/// wishes. n is the sum of a wish's variables. With this term, sides that are too long and sides that are too
+/// short by the same ratio cost the same. Sides shorter than 0.6 times or longer than 1.6 times the wanted
+/// length cost more, in proportion to the excess.
 ///
-/// Independent sets of equations are solved separately. Each set is brought to reduced row echelon form in
-/// integers with sparse rows, as in @cite mitchell_2021_intervals. An equation that contradicts earlier
-/// equations is left out. Each free variable gives a vector along which all equations stay satisfied. A local
-/// search starts from the rounded wishes and moves along these vectors, singly and in pairs, by steps of
-/// powers of two. It always takes the step with the largest gain. If a set has more than 64 free variables,
-/// vectors are not paired. The result is not always the minimum: among 143 random programs with solutions,
-/// one result was a tenth above it (tests/surface/test_interval_program.cpp).
-/// @return  a number for each variable. All variables of a set are 0 if its equations contradict a floor, or
-///         if it has no integer starting point.
+/// Algorithm, for each set of equations with common variables:
+/// 1. Bring the equations to reduced row echelon form in integers, with sparse rows, as in @cite
+///    mitchell_2021_intervals. An equation that contradicts earlier equations is left out.
+/// 2. For each free variable, find the vector along which this variable changes and all equations stay
+///    satisfied. If there are at most 64 free variables, add sums and differences of two such vectors.
+/// 3. Start from the rounded wishes. Move along one of the vectors, by a power of two, as long as this
+///    reduces the objective; take the step with the largest gain each time.
+///
+/// The result is not always the minimum: among 143 random programs with solutions, one result was a tenth
+/// above it (tests/surface/test_interval_program.cpp).
+/// @return  a number for each variable. All variables of a set are 0 if no result was found: the equations
+///         contradict a floor or a lower bound, or step 3 has no integer start.
 /// @note    Deterministic. O(equations · entries of the rows) per set, and O(free² · wishes) per step.
 std::vector<int> solve_intervals(const IntervalProgram& program);
 

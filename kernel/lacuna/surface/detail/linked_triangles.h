@@ -18,11 +18,11 @@ namespace lacuna::surface {
 class LinkedTriangles {
 public:
     struct Side {
-        Index from = -1; ///< node
-        Index twin = -1;
+        Index from = -1; ///< node at which the side starts
+        Index twin = -1; ///< side of the adjacent triangle
         Index line = -1;            ///< the line that contains the side; -1: the side is inside a face
         double s = 0;               ///< position of `from` on that line
-        Vec3 normal = Vec3::Zero(); ///< unit normal of the face at `from`
+        Vec3 normal = Vec3::Zero(); ///< unit normal, at `from`, of the face that contains the triangle
     };
     struct Node {
         Vec3 at;
@@ -83,8 +83,8 @@ public:
     /// side.
     /// @return  the node.
     Index split(Index s, Node node, const std::array<Vec3, 2>& normals);
-    /// Remove the start node of a side. The triangles that remain around this node get the end node of the
-    /// side instead. @pre can_collapse(s)
+    /// Remove a side, its two triangles and its start node. The other triangles at the start node get the end
+    /// node of the side instead. @pre can_collapse(s)
     void collapse(Index s);
     /// Replace a side by the other diagonal of its two triangles. @pre this other diagonal is not a side of
     /// the mesh

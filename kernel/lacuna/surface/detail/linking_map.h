@@ -27,18 +27,19 @@ struct WallPosition {
 std::vector<Vec3> points_at(const topology::Model& model, std::span<const WallPosition> places,
                             bool exact = true);
 
-/// A linking surface mapped onto a strip: s runs around it from 0 to 1 and is periodic, t increases from 0 on
-/// the source rim to 1 on the target rim.
+/// A linking surface mapped onto a strip. The coordinate s runs around the linking surface from 0 to 1 and is
+/// periodic. The coordinate t increases from 0 on the source rim to 1 on the target rim.
 ///
-/// Both coordinates are harmonic (mean value weights). Their values are prescribed on the rims by the
-/// segments, and on the side lines, which are upright. The map is therefore one to one (Tutte) for any
-/// arrangement of wall faces: stacked, side by side, or with seams that do not line up.
+/// At first both coordinates are harmonic functions (mean value weights). The segments prescribe their values
+/// on the rims. On each side line, s is constant, and t is the share of the line's length. The map is one to
+/// one (Tutte) for any arrangement of wall faces: stacked, side by side, or with seams that do not line up.
 ///
 /// On the inner side of a bend, lines of constant harmonic s lie close together. If the walls are not
-/// straight, s is therefore redefined as a share of the length of a section (a line of constant t). With side
-/// lines, it is the share of the length from one side line to the next. Without side lines, sections are
-/// rotated relative to each other by rotation-minimizing transport of a frame. If the rims prescribe another
-/// rotation, the difference is spread evenly over the length.
+/// straight, s is therefore replaced by a share of length along each section. Section: a line of constant t.
+/// - With side lines, s is a share of the length from one side line to the next.
+/// - Without side lines, s is a share of the length from the start of the section. The starts of all sections
+///   follow from a frame that is moved along the sweep with minimal rotation. If the rims prescribe another
+///   rotation, the difference is spread evenly over the length.
 class LinkingMap {
 public:
     /// @param void_edges  whether the rings and uprights include edges between void faces.
@@ -62,18 +63,18 @@ public:
     /// @param near  triangle of the previous position, kNoIndex for the first one; updated
     [[nodiscard]] WallPosition locate(double s, double t, std::size_t& near) const;
 
-    /// Strip coordinates of a model point of the walls; s modulo 1.
+    /// Coordinates (s, t) of a model point on the walls; s modulo 1.
     [[nodiscard]] Vec2 place_of(Index point) const { return upright(strip_.at(point)); }
 
-    /// Convert a share of the walls' length from source to target, averaged over the columns, to t. With side
-    /// lines they are equal; without, the harmonic t increases faster where the walls are narrow.
+    /// The t at a share of the walls' length from source to target (averaged over the columns). With side
+    /// lines, t equals this share. Without side lines, the harmonic t increases faster where the walls are
+    /// narrow.
     [[nodiscard]] double from_even(double height) const;
-    /// Position s at which the shortest path up a linking surface without side lines ends on the target rim,
-    /// counting whole turns.
+    /// As `LinkingSurface::branch`, by the segments of the linking surface [turns].
     [[nodiscard]] double target_branch() const { return branch_; }
 
-    /// Rotation of the transported frames relative to the rims' segments [turns]: at the target, and the
-    /// maximum over all sections.
+    /// Rotation of the frames that are moved with minimal rotation, relative to the harmonic s [turns]: at
+    /// the target, and the maximum over all sections.
     [[nodiscard]] double turn() const { return turn_; }
     [[nodiscard]] double most_turned() const { return most_turned_; }
     /// Whether the line through the centres of the sections bends.
@@ -85,14 +86,16 @@ public:
         EdgeId edge;
         double from = 0, to = 1; ///< fractions of the edge's length at its ends
     };
-    /// Edges that run around the linking surface between stacked faces. A layer must follow them.
+    /// Ring: connected edges between stacked faces, which run around the linking surface. A layer must follow
+    /// them.
     struct Ring {
         double height = 0; ///< mean t
         std::vector<Piece> pieces;
         std::vector<VertexId> vertices;
     };
     [[nodiscard]] const std::vector<Ring>& rings() const { return rings_; }
-    /// An edge between two walls that runs more along the sweep than around it, and is not a side line.
+    /// Upright: an edge between two walls that runs more along the sweep than around it, and is not a side
+    /// line.
     struct Upright {
         EdgeId edge;
         std::vector<Piece> pieces;
@@ -109,7 +112,7 @@ public:
         EdgeId edge;
         double at = 0; ///< fraction of the edge's length
     };
-    /// The crossings of a ring with the column at s, from lowest to highest; usually one.
+    /// The crossings of a ring with the line of constant s, from lowest to highest; usually one.
     [[nodiscard]] static std::vector<Crossing> crossings(const Ring& ring, double s);
 
 private:
@@ -141,13 +144,15 @@ private:
     std::vector<Upright> uprights_;
 };
 
-/// The map of a linking surface, which is kept in `link.map` until its segments change: a sweep needs it up
-/// to seven times. Parameters are those of the constructor.
+/// The map of a linking surface. It is kept in `link.map` and computed again only if the segments have
+/// changed, because a sweep needs it up to seven times. Parameters are those of the constructor.
 std::shared_ptr<const LinkingMap> map_of(const topology::OpenVolume& volume, const LinkingSurface& link,
                                          bool void_edges = true, const RunContext& context = {});
 
-/// For a linking surface without side lines: the position on the target chain that corresponds to the start
-/// of the source chain with the least shear [running length], and the branch, see `LinkingSurface::branch`.
+/// For a linking surface without side lines: map the walls to a strip with the least shear between both
+/// chains.
+/// @return  the position on the target chain that corresponds to the start of the source chain [running
+///         length], and the branch (`LinkingSurface::branch`) [turns].
 std::pair<double, double> unguided_target(const topology::OpenVolume& volume, const LinkingSurface& link,
                                           const RunContext& context = {});
 
@@ -159,7 +164,9 @@ std::vector<topology::EdgeUse> edges_between(const topology::Model& model, const
 /// Whether the walls of a linking surface consist of nearly parallel straight lines.
 bool runs_straight(const topology::Model& model, const LinkingSurface& link);
 
-/// s in [0, 1] of a running length of the target chain, by the linking surface's segments.
+/// The coordinate s in [0, 1] of a position on the target rim, as the linking surface's segments prescribe
+/// it.
+/// @param target_at  running length on the target chain.
 double target_coordinate(const LinkingSurface& link, double target_at);
 
 } // namespace lacuna::surface

@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <vector>
 
-/// Prediction of a grid on a four-sided face. Internal to this folder.
+/// Estimate of the quality of a mapped mesh on a four-sided face. Internal to this folder.
 namespace lacuna::surface {
 
-/// A grid over a face, sampled in space.
+/// A fine grid of sample points over a face, by transfinite interpolation between its four sides.
 class MappedFace {
 public:
     /// @param corners  from `four_corners()`.
@@ -22,12 +22,13 @@ public:
     [[nodiscard]] std::array<std::vector<double>, 2> wanted_inside(const SizeField& size) const;
 
     struct Shape {
-        double mean_scaled_jacobian = 1; ///< in space
-        /// Share of the grid's sides in one direction whose length relative to the size is 0.6 to 1.6 times
-        /// the root mean square of this relative length. The smaller share of both directions.
+        double mean_scaled_jacobian = 1; ///< mean over the quads of the sample grid, in space
+        /// Relative length of a side: its length divided by the requested size. For each direction of the
+        /// grid, take the share of sides whose relative length is 0.6 to 1.6 times the root mean square
+        /// relative length. This is the smaller of the two shares.
         double even_share = 1;
     };
-    /// Quality of the best grid with any number of columns and rows.
+    /// Quality of a mapped mesh if its numbers of columns and rows are chosen well.
     [[nodiscard]] Shape shape(const SizeField& size) const;
 
 private:

@@ -9,7 +9,7 @@ namespace lacuna::surface {
 enum class Pairing {
     /// Breaks are paired in order; if both sides have equally many, all are paired, whatever their positions.
     in_order,
-    near, ///< only breaks close to each other are paired; the walls determine where the others end
+    near, ///< only breaks close to each other are paired; the caller places the others' partners
 };
 
 /// Corresponding breaks of two segments.

@@ -9,13 +9,14 @@
 #include <optional>
 #include <vector>
 
-/// Faces with a round side, such as sectors and half discs. Internal to this folder.
+/// Faces with one round side: sectors (three sides) and half discs (two sides). Internal to this folder.
 namespace lacuna::surface {
 
-/// A round, convex side of a face that has only one such side.
+/// A convex round side of a face that has no other round side.
 struct RoundSide {
-    std::size_t side = 0;
-    /// Turning angle [radian]; radius [model length]; size at the midpoint of the side.
+    std::size_t side = 0; ///< index of the side
+    /// Angle by which the side turns [radian], its mean radius [model length], and the requested size at the
+    /// midpoint of its longest edge [model length].
     double turn = 0, radius = 0, size = 1;
 };
 
@@ -25,12 +26,15 @@ struct RoundSide {
 std::optional<RoundSide> bulge_of(const topology::Model& model, FaceId face,
                                   const std::vector<std::vector<EdgeId>>& sides, const SizeField& size);
 
-/// Add two wishes for a face with a round side: rows with a total depth of a third of the radius along that
-/// side, and as many sides on the round side as the line behind these rows needs for its length.
-/// @param parts  number of equal parts of the side; behind the middle of each part, the line has a corner
-/// @param round  variables of the side
+/// Rows of quads run along the round side of a face and end at an inner line. Add two wishes:
+/// - The number of rows suits a total depth of a third of the radius.
+/// - The round side has as many sides as the inner line needs for its length.
+///
+/// @param parts  number of equal parts of the round side. For each part, the inner line has a corner on the
+///         ray through the middle of the part
+/// @param round  variables of the round side
 /// @param rows   variable of the number of rows
-/// @return  for one part: wanted number of sides on half of the line behind it
+/// @return  wanted number of sides from a corner of the inner line to the end of its part
 double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_t>& round, std::size_t rows,
                  IntervalProgram& program);
 

@@ -25,15 +25,16 @@ inline double height_of(std::size_t section)
 /// at the start of the piece.
 struct SectionLine {
     SeedPiece* piece = nullptr;
-    /// For each section, points at even steps of the sides. Empty for sections that are not known; the source
-    /// is always known.
+    /// For each section, points that divide each side of the piece evenly. Empty for sections whose points
+    /// are not known; those of the source are always known.
     std::array<std::vector<Vec3>, kSections> points;
-    std::vector<double> at;    ///< positions of the nodes, ends included [sides]
-    std::vector<double> above; ///< positions of the nodes on the target; empty: the same as on the source
-    std::vector<std::size_t> variable; ///< for each node, its variable in a solver
-    std::vector<std::size_t> variable_above;
-    /// At each node, the length of a side divided by the length of the column, so that a shift along the edge
-    /// [sides] becomes a slope of the column. Set if `above` is set.
+    std::vector<double> at;    ///< u of each node on the source, ends included [sides]
+    std::vector<double> above; ///< u of each node on the target; empty: as on the source [sides]
+    std::vector<std::size_t> variable;       ///< for each node, the variable of its position `at`
+    std::vector<std::size_t> variable_above; ///< for each node, the variable of its position `above`
+    /// At each node, the length of a side divided by the length of the column. The difference between the
+    /// node's positions on target and source [sides], times this, is the slope of the column. Set if `above`
+    /// is set.
     std::vector<double> steep;
     bool on_rim = false;
 

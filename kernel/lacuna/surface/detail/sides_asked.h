@@ -9,7 +9,7 @@
 /// Rows and numbers of sides requested on edges. Internal to this folder.
 namespace lacuna::surface {
 
-/// Place nodes on edges at the heights of boundary layers that end there.
+/// Place nodes on edges on which rows of boundary layers end, at the heights of these rows.
 /// @throw NotSweepable "surface.layers_room".
 void end_rows(Seeds& seeds, const topology::Model& model, const RimRows& rows);
 

@@ -27,8 +27,8 @@ private:
     [[nodiscard]] double ratio(Index s) const;
     [[nodiscard]] double worst_around(Index node, const Vec3& place) const;
 
-    /// Largest number of sides: those of the mesh, and a multiple of those that the sizes call for.
-    /// @throw NotSweepable "surface.skin_count"  the sizes call for too many triangles.
+    /// Maximum number of sides: those of the mesh, plus a multiple of the number that the sizes require.
+    /// @throw NotSweepable "surface.skin_count"  the sizes require too many triangles.
     [[nodiscard]] double most_sides() const;
     /// @param most  splitting stops at this number of sides.
     void split_long(double most);
@@ -41,8 +41,8 @@ private:
     std::vector<Index> flip_from(std::vector<Index> open);
     [[nodiscard]] Vec3 centre_around(Index node) const;
     [[nodiscard]] const FaceShapeTree& shape_at(Index node) const;
-    /// Move a node to a place. The move fails if it makes an angle that is smaller than `least` and also
-    /// smaller than the smallest angle at the node before. Angles are given by their tangents.
+    /// Move a node to a place, if the smallest angle of its triangles afterwards is at least `least`, or at
+    /// least as large as before. Angles are given by their tangents. @return  whether the node was moved
     bool move_to(Index node, const Vec3& place, double least);
     bool move_along_line(Index node, double least);
     void smooth(double least);

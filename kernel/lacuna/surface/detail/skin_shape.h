@@ -14,9 +14,9 @@ namespace lacuna::surface {
 /// Whether a face has a given mesh.
 bool keeps_cells(const topology::Face& face);
 
-/// Unit normals of a face at the corners of its facets. A corner's normal is the mean over those facets at
-/// the point whose normals are close to the facet's own normal, so that tips and creases stay sharp. For a
-/// facet without area, it is the mean over all facets at the point.
+/// For each facet, unit normals of the face at its three corners. The normal at a corner is the mean over
+/// those facets at the point whose normals differ little from that of the facet, so that tips and creases
+/// stay sharp. For a facet without area, it is the mean over all facets at the point.
 std::vector<std::array<Vec3, 3>> corner_normals(std::span<const Vec3> points,
                                                 std::span<const Triangle> triangles);
 

@@ -13,9 +13,9 @@ namespace lacuna::surface {
 /// Sizes of the triangles of a skin: the requested size, reduced where the skin is curved, narrow or thin,
 /// and adapted to given nodes nearby.
 ///
-/// - Curvature: a full turn has n sides, where n >= 12 is the smallest number with which the skin loses at
-///   most half of `kSameVolume` of its volume. On average over its length h, a side along a curvature k is k
-///   h² / 12 away from the curve.
+/// - Curvature: a full turn has n sides. n >= 12 is the smallest number with which the skin loses at most
+///   half of `kSameVolume` of its volume. The loss is estimated from the mean distance between a side and the
+///   surface: k h² / 12 for a side of length h in a direction of curvature k.
 /// - Width: faces and edges are treated as in `shape_size()`, down to a tenth of the requested size.
 /// - Thin places: if the opposite skin is at a distance w, the sag of a side is at most a quarter of w.
 /// - Short edges have one side.

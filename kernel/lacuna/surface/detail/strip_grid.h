@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-/// A wall's grid in the strip onto which its linking surface is mapped. Internal to this folder.
+/// The grid of a linking surface's walls, in the strip of its map (`LinkingMap`). Internal to this folder.
 namespace lacuna::surface {
 
 /// Inputs of the grid.
@@ -22,6 +22,7 @@ struct StripTask {
 };
 
 struct StripGrid {
+    /// A node whose position is fixed on an edge.
     struct Pinned {
         EdgeId edge;
         double share; ///< fraction of the edge's length
@@ -32,8 +33,9 @@ struct StripGrid {
     std::vector<std::size_t> stops;        ///< for each stop of the net, its node
 };
 
-/// Lay the grid into the strip. At first, columns are vertical and layers follow the plain rings. Then nodes
-/// are moved onto the net's stops, and the displacement of the other nodes is harmonic over the grid.
+/// Place the nodes of the grid in the strip. At first, columns are lines of constant s, and layers follow the
+/// rings that meet no other edge of the net (`WallNet::Level::plain`). Then nodes are moved onto the net's
+/// stops and edges, and the displacement of all other nodes is a harmonic field over the grid.
 /// @param map  map of the linking surface; null if the side lines alone determine the positions.
 /// @throw NotSweepable "surface.too_few_layers", "surface.wall_edge", "surface.wall_rows"  as `mesh_walls()`.
 StripGrid lay_strip(const StripTask& task, const LinkingMap* map, const WallNet& net,

@@ -20,10 +20,12 @@ struct Projected {
 
 /// The border of a face with exact geometry. The exact surface extends beyond the border.
 ///
-/// Seams and poles are not part of the border. The nearest side of the border's polyline decides whether a
-/// point is inside or outside. At a corner of the polyline, the sum of the inward directions of both sides
-/// decides (Bærentzen and Aanæs 2005). If the point is closer to the polyline than the bulge of the curve,
-/// the exact curve decides.
+/// Seams and poles are not part of the border. Whether a point is inside or outside follows from the nearest
+/// place on the border's polyline: the point is inside if it lies in the inward direction from there.
+/// - Inside a side of the polyline, the inward direction is that of the side.
+/// - At a corner, it is the sum of the inward directions of both sides (Bærentzen and Aanæs 2005).
+/// - If the point is closer to the side than the exact curve may be (`Side::bulge`), the nearest point of the
+///   exact curve is used instead.
 class Trimming {
 public:
     Trimming(const topology::Model& model, FaceId face);

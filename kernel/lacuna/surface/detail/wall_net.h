@@ -8,26 +8,26 @@
 
 namespace lacuna::surface {
 
-/// The edges inside a linking surface, as a net that the walls' nodes follow. Long edges run along the sweep
-/// and become columns; cross edges run around it and become levels. A node lies where such edges meet, turn
-/// or end.
+/// The edges inside a linking surface, as a net that the walls' nodes follow.
+/// - Long edge: runs along the sweep. Consecutive long edges form a column.
+/// - Cross edge: runs around the sweep. Connected cross edges form a level.
+/// - Stop: a vertex at which a node must lie, because edges of the net meet, turn or end there.
 ///
-/// Side lines and rims are not part of the net. If an edge ends on a side line or rim, it ends there in a
-/// node.
+/// Side lines and rims are not part of the net. If an edge ends on a side line or rim, a node lies there.
 struct WallNet {
-    /// A vertex with a node.
+    /// A vertex at which a node must lie.
     struct Stop {
         VertexId vertex;
-        Vec2 place = Vec2::Zero(); ///< in the strip
-        std::size_t column = 0;
-        int level = -1; ///< kSource, kTarget or an index of `levels`
+        Vec2 place = Vec2::Zero(); ///< position (s, t) in the strip
+        std::size_t column = 0;    ///< index in `columns`
+        int level = -1;            ///< kSource, kTarget or an index in `levels`
     };
     static constexpr int kSource = -1, kTarget = -2;
 
     /// Consecutive long edges, or a single vertex at which cross edges turn or end.
     struct Column {
-        double at = 0;                   ///< s in [0, 1)
-        double low = 1, high = 0;        ///< extent in t
+        double at = 0;                   ///< its s in [0, 1)
+        double low = 1, high = 0;        ///< its range of t
         std::optional<std::size_t> line; ///< the side line with which it coincides
         /// Running lengths of its ends on the source's and the target's rim.
         std::optional<double> source_at, target_at{};
@@ -37,7 +37,8 @@ struct WallNet {
     struct Level {
         double height = 0;               ///< mean t
         std::optional<std::size_t> ring; ///< index of the ring in the map
-        /// Whether the level is a ring that meets no long edge, and that turns and ends on side lines only.
+        /// Whether the level is a ring that meets no long edge, and turns or ends on side lines only. Such a
+        /// ring needs no stops.
         bool plain = false;
         std::vector<std::size_t> stops;
         std::vector<std::size_t> lines; ///< side lines that the ring meets

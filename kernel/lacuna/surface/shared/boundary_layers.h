@@ -14,7 +14,7 @@
 
 namespace lacuna::surface {
 
-/// For each row, the height of its upper side over the face; increasing [model length].
+/// For each row, the distance of its upper side from the face, increasing [model length].
 std::vector<double> row_heights(const BoundaryLayer& layer);
 
 /// The faces of a volume that have the given tags and names.
@@ -31,9 +31,11 @@ bool has_face(const topology::OpenVolume& volume, const std::string& name);
 
 /// The boundary layers of a volume as tables of row heights, and the faces to which they apply.
 struct LayerTables {
-    std::vector<std::vector<double>> heights; ///< by table: heights of its rows over the face, increasing
-                                              ///< [model length]
-    std::map<FaceId, int> of;                 ///< for each face with boundary layers, the index of its table
+    /// For each table, the result of `row_heights()` [model length].
+    std::vector<std::vector<double>> heights;
+    std::map<FaceId, int> of; ///< for each face with boundary layers, the index of its table
+
+    /// The index of a face's table; -1: the face has no boundary layers.
 
     [[nodiscard]] int at(FaceId face) const
     {
@@ -45,7 +47,7 @@ struct LayerTables {
 /// @throw InvalidInput "surface.two_layers"  a face is in two tables; names it.
 LayerTables layer_tables(const topology::OpenVolume& volume, std::span<const BoundaryLayer> layers);
 
-/// Rows along the rims of the source that follow from the boundary layers of the adjacent walls.
+/// Rows of quads on the source along its rims, caused by the boundary layers of the adjacent walls.
 struct RimRows {
     std::vector<std::vector<double>> heights; ///< for each table, the heights of its rows [model length]
     /// A part of an edge of the source's rim, in the direction of the edge, and its table.
@@ -55,7 +57,7 @@ struct RimRows {
         FaceId wall; ///< the wall that the table belongs to
     };
     std::map<EdgeId, std::vector<Part>> parts;
-    /// A place where rows end: one end of an edge. The rows run along the adjacent edge of the loop.
+    /// An end of an edge at which rows end. The rows run along the adjacent edge of the loop.
     struct End {
         int table = -1;
         FaceId wall;
@@ -63,8 +65,8 @@ struct RimRows {
         Vec3 inward;  ///< perpendicular to `along`, in the face
         VertexId corner;
     };
-    /// The places where rows end. The key is an edge, with true if the rows meet its end and false if they
-    /// meet its start.
+    /// The ends of edges at which rows end. Key: the edge, and whether the rows are at its end (true) or at
+    /// its start (false).
     std::map<std::pair<EdgeId, bool>, End> ends;
 
     [[nodiscard]] bool empty() const { return heights.empty(); }
@@ -81,9 +83,11 @@ struct RimRows {
 RimRows rim_rows(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                  const LayerTables& tables);
 
-/// Positions of rows on the edge where they end: increasing fractions of the edge's length in the direction
-/// of the edge. If the edge is too short for all rows, there are fewer positions than heights.
-/// @param at_end   whether the rows are at the end of the edge; false: at its start.
+/// Positions of the rows' upper sides on the edge on which the rows end: increasing fractions of the edge's
+/// length, in the direction of the edge. If the edge is too short for all rows, there are fewer positions
+/// than heights.
+/// @param edge     the edge on which the rows end.
+/// @param at_end   whether the rows are at the end of this edge; false: at its start.
 /// @param heights  heights of the rows over the edge along which they run, increasing [model length].
 std::vector<double> row_places(const topology::Model& model, EdgeId edge, bool at_end,
                                const RimRows::End& end, std::span<const double> heights);

@@ -8,15 +8,15 @@
 
 namespace lacuna::surface {
 
-/// The size used if none is given.
+/// The size that is used if the user gives none.
 struct DefaultSize {
     double length = 0; ///< [model length]
-    std::string why;   ///< how it was found, in words
+    std::string why;   ///< explanation for the user
 };
 
-/// Mean length of the facets' sides on the source's rims. Where an edge has no kept nodes, its facets show
-/// the accuracy of the shape and not a wanted mesh size. Sides there count with at least a twentieth of the
-/// diagonal of the rims' bounding box.
+/// Mean length of the facets' sides on the source's rims. If the nodes of an edge are not kept, its facets
+/// say how accurate the shape is, and not what mesh size is wanted. A side on such an edge therefore counts
+/// with at least a twentieth of the diagonal of the rims' bounding box.
 /// @note  O(points on the rims).
 DefaultSize default_size(const topology::OpenVolume& volume);
 

@@ -21,15 +21,15 @@ struct ChainPosition {
     double fraction = 0; ///< fraction of the edge's length, in the direction of the edge, not of the use
 };
 
-/// A chain of edge uses as one curve over its arc length.
+/// A chain of edge uses as one curve. Running length: length along the chain from its start to a position.
 class Chain {
 public:
     Chain(const topology::Model& model, std::vector<topology::EdgeUse> uses);
 
     [[nodiscard]] double length() const { return start_.back(); }
     [[nodiscard]] const std::vector<topology::EdgeUse>& uses() const { return uses_; }
-    /// For a closed chain: subtract one turn from a running length that exceeds the length of the chain.
-    /// @pre  the running length is below two turns
+    /// For a closed chain: subtract the chain's length from a running length that is not below it.
+    /// @pre  the running length is below twice the chain's length
     [[nodiscard]] double wrapped(double s) const { return s >= length() ? s - length() : s; }
     /// Running length at the start of use i. If i is the number of uses, the length of the chain.
     [[nodiscard]] double start(std::size_t i) const { return start_[i]; }

@@ -9,15 +9,15 @@
 
 namespace lacuna::surface {
 
-/// The shape of a face, for comparison with a mesh: its facets, and the bulge of the exact face over each of
-/// their sides. A facet with its bulges is a quadratic patch. A comparison with plain facets would hide
-/// deviations, or would report the sag of the facets as one.
+/// The shape of a face, for comparison with a mesh: the facets, and the bulge of the exact face over each
+/// side of a facet (the vector from the side's midpoint to the exact face). A facet with its bulges is a
+/// quadratic patch. A comparison of a mesh with plain facets would include the sag of the facets.
 struct FaceShape {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
     std::vector<std::array<Vec3, 3>> bulge; ///< for each side of each facet, at its middle; empty: no bulges
-    /// For faces without an exact surface: maximum distance of the facets from the edges that the face shares
-    /// with exact faces [model length].
+    /// For a face without an exact surface: maximum distance between the facets and the exact curves of the
+    /// face's edges [model length].
     double slack = 0;
 
     /// Displacement from a point of a facet to the quadratic patch over this facet.
@@ -28,8 +28,8 @@ struct FaceShape {
     [[nodiscard]] double volume_integral(const Vec3& origin) const;
 };
 
-/// @param size  size of the mesh to compare with. A facet is bisected where it is off the exact face by more
-///         than a twentieth of the size; the error of the patches is then far smaller.
+/// @param size  size of the mesh to compare with. A facet is bisected if it deviates from the exact face by
+///         more than a twentieth of the size. The quadratic patches then deviate far less.
 FaceShape face_shape(const topology::Model& model, FaceId face, const SizeField& size);
 
 } // namespace lacuna::surface

@@ -31,13 +31,14 @@ struct FaceQuads {
 
 /// Fill a face with quads inside given boundary nodes.
 ///
-/// A planar face is filled in its plane. Any other face is flattened, with rim nodes, using facets that are
-/// fine enough for the size (`fine_facets()`). The size is corrected for the distortion by the flattening,
-/// and the flat image is filled. New nodes are mapped back through their facets to the exact surface.
+/// A planar face is filled in its plane. For any other face:
+/// 1. Its facets are refined for the size (`fine_facets()`) and flattened, together with the rim nodes.
+/// 2. The flat image is filled; the size is corrected for the distortion by the flattening.
+/// 3. New nodes are mapped back to their facets, and from these to the exact surface.
 /// @param rim    nodes of the boundary, kept in this order.
 /// @param loops  cycles of indices in `rim`, with the face on the left.
 /// @param rows   rows along sides of the rim, with heights on the face; null: none.
-/// @throw NotSweepable "surface.not_flat"  the face folds when flattened; or as the mesher.
+/// @throw NotSweepable "surface.not_flat"  the face folds when flattened; or an error of `mesher`.
 /// @throw InvalidInput "surface.not_flat"  a curved face consists of several parts, is closed or has a
 ///         handle.
 FaceQuads fill_face(const topology::Model& model, FaceId face, std::span<const RimNode> rim,

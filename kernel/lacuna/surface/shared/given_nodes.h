@@ -10,29 +10,28 @@
 
 namespace lacuna::surface {
 
-/// Given nodes that start at one rim and end before the other rim. They belong to a wall that covers only a
-/// part of the height.
+/// Stub: a column of given nodes that starts at one rim and ends before the other rim, because the given wall
+/// covers only a part of the height.
 struct GivenStub {
     bool from_target = false;  ///< whether it starts at the target's rim; otherwise at the source's
     double at = 0;             ///< running length on the chain of that rim
     FaceId wall;               ///< the wall of the stub; if it is between two walls, one of them
     std::vector<Index> points; ///< model points, starting at the rim
-    /// For each quad between this stub and the next one around the ring: the wall of this quad. Starts at the
-    /// rim.
+    /// The walls of the quads between this stub and the next stub around the ring, starting at the rim.
     std::vector<FaceId> faces;
 };
 
-/// Given nodes from the source rim to the target rim.
+/// A column of given nodes from the source rim to the target rim.
 struct GivenColumn {
     double source_at = 0;      ///< running length on the source chain
     double target_at = 0;      ///< running length on the target chain, modulo its length
     std::vector<Index> points; ///< rows + 1 model points, from the source
-    /// For each quad between this column and the next one around the ring: the wall of this quad. Empty if
-    /// there are no quads.
+    /// The walls of the quads between this column and the next column around the ring, starting at the
+    /// source. Empty if there are no given quads.
     std::vector<FaceId> faces;
 };
 
-/// Columns of given nodes on the walls of a linking surface. A column without quads is a side line.
+/// Columns of given nodes on the walls of a linking surface. A column without given quads is a side line.
 struct GivenColumns {
     int rows = 0;                   ///< number of quads in every column; 0: there are no columns
     bool quads = false;             ///< whether some columns have quads between them
@@ -43,20 +42,20 @@ struct GivenColumns {
 
 /// Rows and columns of the given wall meshes.
 struct GivenRows {
-    /// For each linking surface. All of them have the same number of rows, or no columns.
+    /// The columns of each linking surface. All linking surfaces with columns have the same number of rows.
     std::vector<GivenColumns> columns;
     std::vector<std::string> notes{}; ///< a line for each wall or side line whose nodes are not kept
 };
 
-/// Read the meshes of given walls as rows and columns. The columns are found by walking from each side of the
-/// source rim over opposite sides of quads to the target rim. A column that starts at one rim and ends before
-/// the other rim is a stub. If no wall has quads, side lines are columns, provided that all of them have the
-/// same number of nodes.
-/// @param layers  requested number of layers; 0: any number. Side lines with another number of sides are not
-///         used as columns.
+/// Read the meshes of given walls as rows and columns. A walk starts at each side of the source rim and
+/// crosses quads from one side to the opposite side, up to the target rim. Walks that end before the other
+/// rim give stubs; these are also searched from the target rim. If no wall has quads, the side lines are
+/// columns, provided that all of them have the same number of nodes.
+/// @param layers  requested number of layers; 0: none. Side lines with another number of sides are not used
+///         as columns.
 /// @throw NotSweepable "surface.wall_rows"  quads of walls form different numbers of rows, or stubs have as
-///         many rows as whole walls; "surface.wall_not_rows"  a quad is in no row. The message names the
-///         walls, and the first such quad.
+///         many rows as whole walls; names the walls. "surface.wall_not_rows"  a quad is in no row; names the
+///         wall and the first such quad.
 /// @note  O(quads).
 GivenRows given_columns(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                         int layers);
@@ -81,13 +80,15 @@ struct KeptNodes {
     std::vector<std::string> notes{}; ///< a line for each rim whose nodes are not kept
 };
 
-/// Use the rim nodes of faces that keep their mesh as nodes of the sweep. Each node ends a segment, and the
-/// segment between two such nodes is one side of a quad.
+/// Use the rim nodes of faces that keep their mesh as nodes of the sweep. A segment of a rim ends at each of
+/// these nodes, and the segment between two of them is one side of a quad.
 ///
-/// Nodes of one column correspond to each other. Other nodes of the two rims are paired in order if both rims
-/// have the same number of nodes between two side lines or two corners. Otherwise the nodes of the source are
-/// kept, and a note counts the nodes of the target that are not kept. If only one rim has given nodes, the
-/// other rim gets nodes opposite to them.
+/// The two end nodes of a column correspond to each other. Other nodes, between two side lines or two
+/// corners:
+/// - If both rims have the same number of given nodes there, these are paired in order.
+/// - If the numbers differ, the nodes of the source are kept, and a note counts the nodes of the target that
+///   are not kept.
+/// - If only one rim has given nodes, the other rim gets nodes opposite to them.
 /// @param columns  given columns of each linking surface.
 /// @param wedges   whether triangles of both ends are kept like quads.
 KeptNodes keep_given_nodes(const topology::OpenVolume& volume, std::span<const GivenColumns> columns,

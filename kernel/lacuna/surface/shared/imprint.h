@@ -14,24 +14,24 @@ namespace lacuna::surface {
 /// The part of a target edge to which a source edge is swept.
 struct EdgeImage {
     EdgeId target; ///< edge of the volume's target
-    /// Positions on the target edge of the two ends of the source edge, as fractions. On closed edges, whole
-    /// turns are counted.
+    /// Images of the two ends of the source edge, as fractions of the target edge's length. On a closed
+    /// target edge, each whole turn adds 1.
     double from = 0, to = 1;
 };
 
-/// Two chains of points, one on each end, that correspond in the sweep. The part of one chain between its two
-/// given shares of length is mapped uniformly onto the part of the other.
+/// Two corresponding lines, one on each end. Each line is a part of a chain of points, between two shares of
+/// the chain's length. Points at the same share of the two parts correspond.
 struct KnownLine {
-    std::vector<Index> source, target;
+    std::vector<Index> source, target; ///< points of the chains
     double source_from = 0, source_to = 1;
     double target_from = 0, target_to = 1;
 };
 
 /// A sealed volume whose source is split in the same way as its target.
 struct Imprint {
-    /// Faces, edges and vertices of the original volume keep their ids. They are followed by the parts of
-    /// split source faces, with the tag and name of the whole face. Imprinted edges have the tags of the
-    /// target's edges.
+    /// Faces, edges and vertices of the original volume keep their ids. New parts of split source faces
+    /// follow them, with the tag and name of the whole face. Imprinted edges have the tags of the target's
+    /// edges.
     std::unique_ptr<topology::OpenVolume> volume;
     std::vector<LinkingSurface> links;
     std::vector<FaceId> source_of; ///< for each face: the face of the original volume that contains it
@@ -46,13 +46,15 @@ std::map<EdgeId, double> image_lengths(const Imprint& imprint);
 /// Edges between two faces of one role. A seam, with one face on both sides, is not included.
 std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Role role);
 
-/// Imprint the inner edges of the target on the source.
-/// Source and target are mapped onto one plane: the source by `geometry::flatten()`, the target by a harmonic
-/// map, with the target's rim placed by the linking surfaces. Smooth closed edges of the two ends that
-/// enclose about the same region are merged, with their start points aligned; then the target is mapped again
-/// so that these edges coincide. Next, the edges of the target are intersected with those of the source.
-/// Edges and vertices closer to each other than a fraction of the quad size are merged. The source faces are
-/// split along the remaining edges and retriangulated.
+/// Imprint the inner edges of the target on the source, so that both ends are split in the same way.
+///
+/// 1. Source and target are mapped onto one plane: the source by `geometry::flatten()`, the target by a
+///    harmonic map, in which the linking surfaces determine the positions of the target's rim.
+/// 2. Smooth closed edges of the two ends that enclose about the same region are paired. The target is mapped
+///    again, so that the two edges of each pair coincide.
+/// 3. The edges of the target are intersected with those of the source. Edges and vertices closer to each
+///    other than a fraction of the quad size are merged.
+/// 4. The source faces are split along the edges that exist only on the target, and retriangulated.
 /// @param known  corresponding lines that an earlier imprint created on both ends. They are made to coincide
 ///         in the plane.
 /// @throw NotSweepable "surface.not_imprinted"  the ends cannot be mapped onto each other one to one, an edge

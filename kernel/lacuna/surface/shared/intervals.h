@@ -18,7 +18,7 @@ struct IntervalDemands {
         int count = 1;
         double bias = 1; ///< ratio of last to first height, from the source [-]
         Argument name;   ///< the request from which it results, for messages
-        /// Whether `bias` counts from the end that the user named source. If false, it counts from the end
+        /// Whether the first height of `bias` is at the end that the user named source; false: at the end
         /// where the sweep starts.
         bool from_named_source = false;
     };

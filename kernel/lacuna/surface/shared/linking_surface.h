@@ -18,16 +18,16 @@ namespace lacuna::surface {
 /// running lengths on the linking surface's chains. The source segment lies within one edge.
 struct RimSegment {
     double source_from = 0, source_to = 0;
-    /// May exceed the length of the target chain; such values count modulo that length.
+    /// Running lengths on the target chain, increasing from segment to segment. They may exceed the length of
+    /// the chain and count modulo this length.
     double target_from = 0, target_to = 0;
     std::size_t use = 0; ///< index in the source chain of the edge use that contains the segment
     bool given = false;  ///< whether the segment is exactly one side of a given quad
-    /// Whether both ends of the segment are vertices of the rim's facets, and the rim between these vertices
-    /// bends no more than one straight side may. `follows` refers to the source, `target_follows` to the
-    /// target.
+    /// Whether both ends of the segment are vertices of coarse facets, and the rim between them bends so
+    /// little that one straight side may represent it: on the source (`follows`) and on the target.
     bool follows = false, target_follows = false;
-    /// On surfaces without side lines: whether the column at the start of the segment runs along a crease of
-    /// the walls.
+    /// On linking surfaces without side lines: whether the column at the start of the segment runs along a
+    /// crease of the walls (`Crease`).
     bool on_crease = false;
 
     friend bool operator==(const RimSegment&, const RimSegment&) = default;
@@ -44,17 +44,17 @@ struct LinkingLine {
 /// The ring of walls, given and void, between one source loop and one target loop. The literature on sweeping
 /// calls it a linking surface; variables are named `link`.
 ///
-/// `source` follows the source's rim with the source on its left. `target` follows the target's rim around
-/// the sweep in the same sense, with the target on its right. Both start at the first side line, if there is
-/// one.
+/// The chain `source` follows the source's rim, with the source on its left. The chain `target` follows the
+/// target's rim in the same sense around the sweep, with the target on its right. If there are side lines,
+/// both chains start at the first side line.
 struct LinkingSurface {
     std::vector<FaceId> walls;
     Chain source, target;
     std::vector<LinkingLine> lines;   ///< side lines in walking order
     std::vector<RimSegment> segments; ///< segments in walking order; the first one starts at source length 0
-    /// For a ring without side lines: the position on the target rim at which the shortest path from the
-    /// source's start ends, as a number of turns around the ring. Empty if corresponding vertices of both
-    /// rims are given.
+    /// For a ring without side lines: how far the walls wind around the sweep. The shortest path along the
+    /// walls from the start of `source` to the target rim ends at this position, in turns around the ring;
+    /// whole turns are counted. Empty if corresponding vertices of both rims are given.
     std::optional<double> branch{};
     /// The map of the walls, kept by `map_of()`. A linking surface must not be used by two threads at once.
     mutable std::shared_ptr<const LinkingMap> map{};
@@ -69,11 +69,11 @@ topology::EdgeUse target_use(const LinkingSurface& link, const RimSegment& segme
 /// How linking surfaces without side lines rotate between source and target.
 enum class Turning {
     each,     ///< each one separately, with minimum shear of its walls
-    together, ///< all loops as one rigid body; needed if holes wind around each other
+    together, ///< all loops as one rigid body; needed if the walls of holes wind around each other
 };
 
-/// A vertex of the source's rim, and the vertex of the target's rim to which it is swept, with or without a
-/// side line.
+/// A vertex of the source's rim, and the vertex of the target's rim to which it is swept. A side line may
+/// join them, but need not.
 struct RimPair {
     VertexId source, target;
 };

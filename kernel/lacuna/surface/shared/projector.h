@@ -44,8 +44,8 @@ Vec3 point_on_facets(const topology::Model& model, FaceId face, const FacetPosit
 
 class Trimming;
 
-/// Finds the closest points on a set of faces. The facets determine the face and the position on it, and the
-/// exact surface determines the point. A point beyond the face's border is moved back to the border.
+/// Finds the closest points on a set of faces. The closest facet determines the face and the start
+/// parameters. From there the point is projected onto the exact surface, if the face has one.
 class Projector {
 public:
     Projector(const topology::Model& model, std::vector<FaceId> faces);

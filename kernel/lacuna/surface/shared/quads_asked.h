@@ -6,9 +6,9 @@
 
 namespace lacuna::surface {
 
-/// Whether a size field requests more quads than `most` on the source. Quads are counted over facets, which
-/// are subdivided while the size varies on them. On a four-sided face, which may be mapped, the count follows
-/// from the numbers of sides of its rim.
+/// Whether a size field requests more quads than `most` on the source. The quads on a face are counted over
+/// its facets; a facet is subdivided until the size is nearly uniform on each part. A four-sided face may be
+/// mapped; its quads are counted from the numbers of sides on its rim.
 /// @note  O(min(quads asked for, most)) sizes.
 bool asks_for_more(const topology::OpenVolume& volume, const SizeField& size, double most);
 

@@ -12,7 +12,7 @@
 
 namespace lacuna::surface {
 
-/// Vertices of facets that become nodes of the rims.
+/// Breaks: vertices of coarse facets that become nodes of the rims.
 struct RimBreaks {
     /// For each linking surface, its breaks: pairs of running lengths on the source's and the target's chain.
     /// Empty: no breaks.
@@ -32,21 +32,25 @@ struct Crease {
 
 /// Finds the vertices of coarse facets at which rims need nodes.
 ///
-/// On a rim made of facets, breaks are the vertices that the Douglas-Peucker rule keeps (@cite
-/// douglas_1973_reduction). Its tolerance is the sag of one side of an arc with the length and turn of the
-/// edge. A break helps only if a crease leads from it to another rim. The crease may cross an end as one side
-/// of a facet, or run up the walls, where a column then follows it. An edge gets no breaks if its creases
-/// lead elsewhere, or if it has more such vertices than its arc has sides.
+/// An edge without an exact curve is a polyline. Candidates for breaks are its vertices that the
+/// Douglas-Peucker rule keeps (@cite douglas_1973_reduction). The tolerance of this rule is the sag of one
+/// mesh side, if the edge were an arc of the same length and turn. An edge with more candidates than the arc
+/// would have mesh sides gets no breaks.
+///
+/// A break is useful only if a crease leads from it to another rim. The crease is either a single facet side
+/// across an end, or a chain up the walls, and then a column of nodes follows it. An edge gets no breaks if
+/// one of its candidates has no such crease.
 class RimFacets {
 public:
     RimFacets(const topology::OpenVolume& volume, std::span<const LinkingSurface> links);
 
-    /// @param per_turn  number of sides for a full turn, >= 1. @param size  length of sides; used where it is
-    ///         larger.
+    /// @param per_turn  number of mesh sides for a full turn, >= 1.
+    /// @param size      length of mesh sides. Each edge has the number of sides that the turn or the size
+    ///                  requires, whichever is larger.
     [[nodiscard]] RimBreaks breaks(int per_turn, const SizeField& size);
 
-    /// Points along the crease from a point of a rim to another rim: at each point it takes the sharpest side
-    /// of the facets. Empty if there is no crease.
+    /// Points of the crease from a point of a rim to another rim. At each point, the crease continues along
+    /// the facet side with the largest angle between its two facets. Empty if there is no crease.
     const std::vector<Index>& crease(Index rim);
 
 private:

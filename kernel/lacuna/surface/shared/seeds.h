@@ -35,26 +35,27 @@ struct SeedPiece {
     /// Number of sides that size and curvature require, before rounding and interval assignment, > 0.
     double sides = 1;
     int least = 1; ///< minimum number of sides required by curvature, >= 1
-    /// Set if the size varies along the piece. For each of a series of even steps: the number of sides that
-    /// the size requires from the start up to there. Nodes divide the last of these numbers evenly. Empty:
-    /// nodes are evenly spaced.
+    /// If size or curvature vary along the piece: the number of sides, not rounded, that they require from
+    /// the start of the piece up to each of several even steps. The mesh nodes lie where this number has
+    /// equal increments. Empty: nodes are evenly spaced.
     std::vector<double> wanted{};
-    /// Turn of the target's rim opposite to the piece, at even steps from the start [radian]. Empty: unknown.
+    /// If the piece is on the rim: the piece is divided into even steps. For each step, the turn of the
+    /// target's rim along its image [radian]. Empty otherwise.
     std::vector<double> opposite{};
     std::vector<double> kept{}; ///< if `fixed`: given nodes inside, as fractions of the edge
-    /// Positions of inner nodes, as fractions of the edge, for which the lines of mapped faces are square to
-    /// the edge. Empty: `wanted` determines the positions.
+    /// Positions of inner nodes, as fractions of the edge, after `square_mapped_lines()` has moved them.
+    /// Empty: not moved.
     std::vector<double> placed{};
-    /// As `placed`, for the corresponding nodes on the target's rim. Empty: they have the positions of the
-    /// source's nodes.
+    /// As `placed`, for the corresponding nodes on the target's rim. Empty: they have the same fractions as
+    /// the source's nodes.
     std::vector<double> placed_above{};
     bool fixed = false; ///< whether number and positions of nodes are given or requested, and must not change
-    bool asked = false; ///< if `fixed`: whether the user requested them
+    bool asked = false; ///< if `fixed`: whether the user requested number and positions
     bool bends = false; ///< whether curvature requires more sides than the size
-    /// Whether both ends of the piece are vertices of facets, and the edge hardly bends between them.
+    /// As `RimSegment::follows`. The turn of the edge then requires no sides.
     bool follows = false;
-    /// Positions of the nodes where rows of boundary layers end near the start and near the end, as fractions
-    /// of the edge.
+    /// Nodes at which rows of boundary layers end, near the start (`low`) and near the end (`high`) of the
+    /// piece, as fractions of the edge.
     std::vector<double> low{}, high{};
 
     /// Number of rows that end on the piece.
@@ -63,13 +64,14 @@ struct SeedPiece {
     [[nodiscard]] int between() const { return count - rows(); }
     /// Fractions of the edge at the piece's nodes, including its start but not its end.
     [[nodiscard]] std::vector<double> fractions() const;
-    /// Relative positions of the piece's nodes in the direction of an edge use, from 0 to below 1.
+    /// Positions of the piece's nodes as shares of the piece, from 0 to below 1, in the direction of an edge
+    /// use.
     [[nodiscard]] std::vector<double> shares(bool reversed) const;
     /// As `shares()`, for the images of the nodes on the target's rim.
     [[nodiscard]] std::vector<double> shares_above(bool reversed) const;
 };
 
-/// A number of sides for consecutive parts of the source's rim.
+/// A requested number of sides on consecutive parts of edges of the source.
 struct SidesAsked {
     struct Part {
         EdgeId edge;
@@ -90,9 +92,11 @@ struct EdgeDemands {
     std::set<FaceId> kept;
 };
 
-/// Numbers of sides on every edge of the source faces (interval assignment). Opposite sides of a mapped face
-/// have equal numbers, the sides of a submapped face have equal totals in opposite directions, and a free
-/// face has an even total.
+/// Numbers of sides on every edge of the source faces (interval assignment). The numbers fit the faces:
+/// - Mapped face: opposite sides have equal numbers.
+/// - Submapped face: the sides that run in one direction of the grid have the same total as those that run
+///   back.
+/// - Free face: the total of all sides is even.
 struct Seeds {
     std::map<EdgeId, std::vector<SeedPiece>> pieces; ///< in order along the edge
     /// For each mapped face: the indices of the four edge uses that start a side.
@@ -112,46 +116,59 @@ struct Seeds {
 
 /// Assign numbers of sides to the edges of the source (interval assignment), in five steps.
 ///
-/// 1. Each edge requests the number of sides that the size requires or, if that is larger, the curvature: a
-///    full turn of an edge gets `sizing.curvature` sides. If the target's rim turns more than the source's,
-///    the excess counts as well. Bends of a polyline count as those of the curve that it approximates, unless
-///    they are sharp. With `curvature` 0 only the size counts, but a side spans at most a sixth of a turn. If
-///    size or curvature vary along an edge, so does the spacing of its nodes. Edges of faces that keep their
-///    own quads have the nodes of these quads.
+/// 1. Each edge gets a wanted number of sides: the number that the size or the curvature requires, whichever
+///    is larger. For curvature, a full turn of an edge gets `sizing.curvature` sides.
+///    - If the target's rim turns more than the source's, the excess counts as well.
+///    - Bends of a polyline count as those of the curve that it approximates, unless they are sharp.
+///    - With `curvature` 0 only the size counts, but a side spans at most a sixth of a turn.
+///    - If size or curvature vary along an edge, so does the spacing of its nodes.
+///    - Edges of faces that keep their own quads have the nodes of these quads.
 ///
-/// 2. One integer program covers all edges of mapped and submapped faces, of free faces that share an edge
-///    with these, and of sectors that share an edge with any free face. It minimizes Σ (n − wanted)² / n over
-///    the edges' pieces and three lines across each mapped face, with a penalty for sides outside the
-///    accepted range of lengths. Opposite sides get equal numbers, and no piece gets fewer sides than its
-///    minimum. A free face of three sides is filled by three grids around a node, and a half disc by two such
-///    patterns. Any other face of two sides is filled by a grid with two of its corners inside. All other
-///    free faces get an even total.
-///
-///    Two more terms concern a face with one round side. Along this side, rows should have a total depth of a
-///    third of the radius. The line behind these rows should have as many sides as its length requires.
-///    Lengths are measured in space, so a face that bulges or narrows between its sides gets the numbers that
-///    its interior needs. A mapped face becomes free if its given sides contradict each other, or if its grid
+///    Then each face is classified as mapped, submapped or free. A face does not become mapped if its grid
 ///    would have poor angles or lengths in space.
 ///
-/// 3. Of the remaining free faces, those that one grid can fill get numbers for which the grid closes
-///    (`quads::pattern_counts()`). They are treated one after the other and keep the numbers found so far.
-///    Faces with the most loops come first, because their loops must agree.
+/// 2. One integer program determines the numbers of sides on the edges of these faces:
+///    a. mapped and submapped faces;
+///    b. free faces that share an edge with a face of a;
+///    c. large sectors that share an edge with another free face. Sector: a face with three sides, one of
+///       which is round (`RoundSide`).
+///
+///    Opposite sides of grids get equal numbers, and no piece gets fewer sides than its minimum. Free faces
+///    are filled as follows: a face with three sides by three grids around an inner node; a half disc by two
+///    such patterns; any other face with two sides by a grid of which two corners lie inside the face. All
+///    other free faces get an even total.
+///
+///    The program minimizes Σ (n − wanted)² / n, with higher costs for sides outside the accepted range of
+///    lengths. The sum runs over the pieces of all edges, and over lines across mapped faces (three in each
+///    direction), so that a face that bulges or narrows between its sides gets the numbers that its interior
+///    needs. For a sector or a half disc, further terms are added. Rows of quads run along the round side;
+///    these rows should fill a third of the radius, and the round side should have as many sides as the line
+///    at which these rows end needs for its length.
+///
+///    After the program, a mapped or submapped face becomes free if given numbers make its opposite sides
+///    unequal.
+///
+/// 3. The other free faces that one grid can fill get numbers of sides for which this grid exists
+///    (`quads::pattern_counts()`). The faces are treated one after the other, those with the most loops
+///    first, because their loops constrain each other. Numbers that were found before do not change.
 ///
 /// 4. A second program over all edges of the source makes the total of every free face even, with the least
 ///    change.
 ///
 /// 5. Where lines of a grid are oblique to the sides of a mapped face, the nodes on these sides move along
-///    them. If the sections of the volume differ, such nodes get other positions on the target.
+///    the sides. If sections of the volume differ, such a node may get another position on the target than on
+///    the source.
 ///
-/// @param sizing   sides for a full turn, and the gap. With a gap, the size already includes it, and faces
-///         are submapped only on request. With `counts_across` the size does not include it: the sides of
-///         mapped faces get at least as many quads as the gap requires, and faces may be submapped.
+/// @param size     already reduced for `sizing.gap`, except with `sizing.counts_across`.
+/// @param sizing   sides for a full turn, and the number of quads across narrow places. With
+///         `counts_across`, the sides of mapped faces get at least `gap` quads. If `gap` is set without
+///         `counts_across`, faces are submapped only on request.
 /// @param lengths  lengths of the images of edges, if known [model length]. If the image is longer than the
 ///         edge, the edge gets the sides that its image needs.
-/// @param wedges   whether triangles are kept like quads, and a rim with an odd number of given sides stays
-///         odd.
-/// @param demands  rows of boundary layers, whose heights become nodes of the edges where they end; and
-///         numbers of sides, which are binding.
+/// @param wedges   whether given triangles are kept like quads. A rim with an odd number of given sides then
+///         stays odd.
+/// @param demands  rows of boundary layers, and binding numbers of sides. The edges on which rows end get
+///         nodes at the heights of these rows.
 /// @throw NotSweepable "surface.layers_room"  an edge is too short for the rows that end on it;
 ///         "surface.sides_asked"  requested numbers of sides contradict each other, a given mesh or rows, or
 ///         make a face's total odd; names both with their numbers; "surface.given_triangles"  a face has

@@ -12,9 +12,9 @@ namespace lacuna::surface {
 struct ShapeSizing {
     int curvature = 12; ///< sides for a full turn of an edge or a surface, >= 0; 0: the size alone
     int gap = 0;        ///< minimum number of quads across a narrow place, >= 0; 0: no minimum
-    /// How `gap` is met. If set, mapped faces with four corners get at least `gap` quads between opposite
-    /// sides, and the size is not reduced there. Rectilinear faces may then be submapped although `gap` is
-    /// set.
+    /// How the minimum `gap` is reached on four-sided faces. True: mapped faces get at least `gap` quads
+    /// between opposite sides, and the size is not reduced there; rectilinear faces may be submapped. False:
+    /// the size is reduced; rectilinear faces are submapped only on request.
     bool counts_across = false;
 };
 
@@ -28,31 +28,33 @@ struct SizeCause {
     double width = 0;            ///< distance between the two edges [model length]
 };
 
-/// Sizes over the source, and the causes of the reduction.
+/// Sizes over the source, and the places that cause the strongest reductions.
 struct ShapeSize {
     SizeField at;
-    std::optional<SizeCause> curvature; ///< place where curvature of a face requests the smallest size
+    std::optional<SizeCause> curvature; ///< place where the curvature of a face requests the smallest size
     std::optional<SizeCause> width;     ///< narrow place that requests the smallest size
 };
 
-/// Reduce the requested size where the source faces are curved or narrow, or so thin that straight sides of
-/// one rim would come close to the opposite rim.
+/// Reduce the requested size where the source faces are curved or narrow.
 ///
-/// - Curvature: the larger principal curvature k at the facets' vertices gives the size 2π / (k · curvature),
-///   as Gmsh's MeshSizeFromCurvature does. It is computed from the curvature tensor (@cite
-///   cohensteiner_2003_tensor) of the facets around a vertex. On faces without an exact surface, the size is
-///   at least half of the facets' size. Nowhere is it less than half of the requested size; rims have their
-///   own numbers of sides.
-/// - Width: a ball that touches a rim from inside is shrunk until it contains no rim (@cite ma_2012_ball). If
-///   the opposite point faces back at a distance w, the size is w / gap. Where the rim has the curvature k,
-///   sides have a sag of at most a quarter of w, so their length is at most √(2 w / k). If w is less than the
-///   requested size, the sides that the curvature of one rim asks for limit those of a straight edge
-///   opposite, too; otherwise quads between the two would be slivers. Edges that share one corner form a
-///   wedge, which has no minimum width. For two edges that share both corners, as on a lens, the distance w
-///   is at least the mean width of the face: twice its area divided by the length of its rim.
+/// - Curvature: the larger principal curvature k at a vertex of the facets gives the size 2π / (k ·
+///   curvature), as Gmsh's MeshSizeFromCurvature does. k is computed from the curvature tensor (@cite
+///   cohensteiner_2003_tensor) of the facets around the vertex. On faces without an exact surface, the size
+///   is at least half of the facets' size. It is nowhere less than half of the requested size.
+/// - Width: a ball that touches a rim from inside is shrunk until no other point of the rims lies in it
+///   (@cite ma_2012_ball). It then touches the opposite point, at a distance w. If the rim faces back there,
+///   the size is w / gap.
+/// - Sag: where the rim has the curvature k, a mesh side may have a sag of at most a quarter of w, so that
+///   sides stay away from the opposite rim. Their length is then at most √(2 w / k).
+/// - Slivers: if w is less than the requested size, and one rim is divided finer than that because it is curved,
+///   a straight edge opposite gets the same size as this rim.
 ///
-/// The influence of a place decreases with the distance from it. The field does not contain the curvature of
-/// edges, because `seed_source()` counts it along each edge.
+/// Two edges with a common corner form a wedge, in which w goes to zero; there the width is ignored. For two
+/// edges that share both corners, as on a lens, w is at least the mean width of the face: twice its area
+/// divided by the length of its rim.
+///
+/// From each of these places, the size grows with the distance (`kGrading`). The curvature of edges is not
+/// part of the field, because `seed_source()` counts it along each edge.
 /// @return  `asked` itself, without causes, if no place requires a smaller size.
 /// @note    O(n log n) in the facets and rim points of the source; a size is found in O(log n).
 ShapeSize shape_size(const topology::OpenVolume& volume, const SizeField& asked, const ShapeSizing& sizing);

@@ -26,18 +26,24 @@ struct SkinMesh {
 
 /// Mesh the closed skin of a model with triangles. Faces with fixed or given meshes keep these.
 ///
-/// Algorithm: isotropic remeshing of the facets (@cite botsch_2004_remeshing), all faces at once. Long sides
-/// are split, the longest first, and short sides are collapsed. Flips increase the smaller angle of two
-/// triangles. Nodes move to the centres of their triangles and back to the face. Nodes on edges stay on their
-/// edge, and vertices do not move. At the end nodes are moved onto exact curves and surfaces where there are
-/// any. No step turns a triangle away from the normal of the facets. Departure from the paper: the remaining
-/// small angles are then improved one by one (@cite hu_2017_remeshing).
+/// Algorithm: isotropic remeshing of the facets (@cite botsch_2004_remeshing), all faces at once. In each
+/// round:
+/// 1. Long sides are split, the longest first.
+/// 2. Short sides are collapsed.
+/// 3. Sides are flipped if this increases the smallest angle of their two triangles.
+/// 4. Each node moves to the centre of its triangles and is projected back onto the face.
 ///
-/// Sides are shorter than requested where faces are narrow, down to a tenth of the requested size, and where
-/// they are curved, so that the volume within the skin differs from that of the model by at most about half a
-/// percent. Sizes grow by `kGrading` away from these places and from the nodes of fixed faces.
+/// Nodes on edges stay on their edge, and vertices do not move. At the end, nodes move onto the exact curves
+/// and surfaces, if there are any. No step may turn a triangle away from the normal of the facets. Departure
+/// from the paper: the remaining small angles are then improved one by one (@cite hu_2017_remeshing).
 ///
-/// Where facets of a face meet at an angle of more than `kCreaseAngle`, the crease between them is kept.
+/// Sides are shorter than requested in two cases:
+/// - Narrow faces: down to a tenth of the requested size.
+/// - Curved faces: so short that the volume within the skin differs from that of the model by at most about
+///   half a percent.
+///
+/// Sizes grow by `kGrading` away from these places and from the nodes of fixed faces. If facets of a face
+/// meet at an angle of more than `kCreaseAngle`, the crease between them is kept.
 /// @param size  target length of the triangles' sides [model length]
 /// @pre   the faces of the model are oriented outward.
 /// @post  vertices and given nodes are kept bit for bit.

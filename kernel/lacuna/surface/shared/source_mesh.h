@@ -15,8 +15,8 @@ namespace lacuna::surface {
 
 /// Quads on all source faces together, followed by kept or generated triangles.
 struct SourceMesh {
-    /// Quads with normals into the volume. The rim nodes come first, one linking surface after the other.
-    /// `face` holds indices of `FaceId`.
+    /// Quads with normals into the volume. The rim nodes come first, one linking surface after the other. The
+    /// labels `face` are the indices of the source faces.
     mesh::QuadMesh quads;
     /// Rim nodes of each linking surface: node i of surface b is quad node first[b] + i.
     std::vector<LinkingNodes> links;
@@ -28,9 +28,11 @@ struct SourceMesh {
 
 /// Mesh the source faces with quads, with the numbers of sides of the seeds.
 ///
-/// Kept faces have their own quads, every node bit for bit. Mapped faces are meshed transfinitely in arc
-/// length and projected onto the face. Free faces are flattened, filled by `mesher`, and mapped back to the
-/// exact surface. Faces share nodes on common edges and vertices.
+/// - Kept faces have their given quads, every node bit for bit.
+/// - Mapped faces get a grid by transfinite interpolation in arc length, projected onto the face.
+/// - Free and submapped faces are flattened, filled by `mesher`, and mapped back to the exact surface.
+///
+/// Faces share nodes on common edges and vertices.
 /// @throw NotSweepable  a face needs `mesher` but there is none, or a face cannot be flattened; names it.
 SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                        const Seeds& seeds, const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,

@@ -6,8 +6,8 @@
 
 namespace lacuna::surface {
 
-/// The motion from the source to the target, or from the target to the source, if one motion made all walls.
-/// Null otherwise, and also if the walls end before the motion ends, as on a piece of a swept volume.
+/// If one motion created all walls (`geometry::SweptSurface`): the motion from the source to the target. Null
+/// otherwise. Also null if the walls end before the motion ends, as on a piece of a swept volume.
 /// @note  O(facets of the walls).
 geometry::MotionPointer swept_motion(const topology::OpenVolume& volume);
 

@@ -18,8 +18,9 @@ struct LinkingNodes {
     std::vector<std::size_t> line; ///< for each side line, the index of the node at its source end
 };
 
-/// Place nodes at given shares of each segment. The shares are in [0, 1) and increasing, with equally many
-/// for source and target.
+/// Place nodes at given shares of each segment.
+/// @param source, target  for each segment, the shares on this rim: increasing, in [0, 1); equally many on
+///         both rims.
 LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> source,
                            std::span<const std::vector<double>> target);
 
@@ -33,18 +34,21 @@ struct WallMesh {
 
 /// Mesh the walls of all linking surfaces, with one row of quads per layer.
 ///
-/// If the part between two side lines is a single face, it is meshed transfinitely in arc length and
-/// projected onto the face (section 7 of Roca and Sarrate 2010; for void faces, Algorithms 5 and 6). All
-/// other parts are meshed by the harmonic map of the linking surface. Layers follow edges around the walls,
-/// columns follow edges up the walls, and a node lies where such edges meet, turn or end. The other nodes
-/// move by a harmonic field over the grid, so that layers and columns bend towards the edges.
+/// If the part between two side lines is a single face, it gets a grid by transfinite interpolation in arc
+/// length, projected onto the face (section 7 of Roca and Sarrate 2010; for void faces, Algorithms 5 and 6 of
+/// @cite mukherjee_2014_open).
+///
+/// All other parts are meshed by the harmonic map of the linking surface (`LinkingMap`). Layers follow the
+/// edges that run around the walls, and columns follow the edges that run along the sweep. A node lies where
+/// such edges meet, turn or end. The displacements of these nodes are spread over the grid by a harmonic
+/// field, so that all layers and columns bend towards the edges.
 ///
 /// Columns of given nodes and the quads between them are used unchanged.
 /// @param nodes    nodes around each linking surface.
 /// @param columns  given columns of each linking surface; empty: none.
 /// @param heights  layers + 1 numbers from 0 to 1.
-/// @param exact    false: nodes lie on the facets of given walls, and on void walls only nearly. This is
-///         faster, and accurate enough to find the directions of columns.
+/// @param exact    false: nodes lie on the facets of given walls instead of the exact faces, and only close
+///         to void walls. This is faster, and accurate enough to find the directions of columns.
 /// @throw NotSweepable "surface.too_few_layers"  there are more edges around the walls than layers can
 ///         follow; names one of them, and a sufficient number of layers; "surface.wall_edge"  neither a layer
 ///         nor a column can follow an edge between two walls.

@@ -12,9 +12,9 @@ namespace lacuna::topology {
 /// Triangle sides looked up by their end points: side 3·t + i runs from corner i of triangle t to the next
 /// corner.
 ///
-/// Sides are bucketed by start point, each bucket sorted by end point. Building the table is thus linear in
-/// the triangles, except for the sorting of the few sides at a point, and needs no hashing. A table can be
-/// reused for one face after another; the cost depends only on the triangles of each.
+/// Sides are grouped by start point, and each group is sorted by end point. Building the table needs no
+/// hashing and is linear in the triangles, except for the sorting of the few sides at a point. A table can be
+/// reused for one face after another; the cost of each use depends only on the triangles of that face.
 class DirectedSides {
 public:
     /// @param points  every corner is in [0, points).
@@ -54,7 +54,8 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// euler_number() of open_volume.h for a series of face sets. Linear in the facets of each.
+/// As `euler_number()` of open_volume.h, but calls for several sets of faces can share a table. Linear in the
+/// facets of the set.
 /// @param sides  a table for the model's points; empty afterwards.
 long euler_number(const Model& model, const std::vector<FaceId>& faces, DirectedSides& sides);
 

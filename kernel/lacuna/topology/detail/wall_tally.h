@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-/// Counts from which the Euler number of the remaining walls follows when patches become ends. Internal to
-/// this folder.
+/// Bounds of the Euler number of the walls if one or two patches become ends. Internal to this folder.
 namespace lacuna::topology {
 
 /// The patches of a model, indexed for role candidates.
@@ -23,11 +22,11 @@ struct PatchMap {
 
 inline std::size_t number_of(EdgeUse use) { return 2 * use.edge.index() + (use.reversed ? 1 : 0); }
 
-/// Rules out pairs of ends by Euler numbers, from a few counts of each patch.
+/// Excludes pairs of ends by Euler numbers, from a few counts of each patch.
 ///
-/// Walls that join ends have no handles, so the Euler number of each connected part is 2 minus the number of
-/// its rims. The Euler number of the walls that remain when one or two patches become ends lies between two
-/// bounds.
+/// Walls that join ends have no handles, so the Euler number of each connected part of the walls is 2 minus
+/// the number of its rims. If one or two patches become ends, all other patches are the walls. The counts
+/// give bounds of the walls' Euler number without tracing their rims.
 class WallTally {
 public:
     /// @param free_loops  number of free loops of all patches.
@@ -49,9 +48,9 @@ public:
     [[nodiscard]] bool can_hold(std::size_t p) const;
 
 private:
-    /// Change of the walls' counts when a patch becomes an end; see `can_hold()`.
+    /// Change of the walls' counts if a patch becomes an end; see `can_hold()`.
     struct Taken {
-        long fans = 0;        ///< decrease of the number of fans round vertices; see `count_fans()`
+        long fans = 0;        ///< decrease of the number of fans; see `count_fans()`
         long vertices = 0;    ///< vertices that no other patch has
         long edges = 0;       ///< edges that no other patch has
         long contacts = 0;    ///< uses of its edges whose opposite use belongs to another patch

@@ -18,8 +18,9 @@ FacetNormals facet_normals(const Model& model, FaceId face);
 /// The corners of a face's facets, ascending.
 std::vector<Index> corner_points(const Face& face);
 
-/// Largest deviation of a face on a cylinder, sphere or cone, as a share of its radius. It is well above the
-/// rounding of files and below the deviation of other shapes.
+/// A face is on a cylinder, sphere or cone if its facets' corners deviate by at most this share of the
+/// radius. The value is well above the rounding of coordinates in files, and below the deviation of other
+/// shapes.
 inline constexpr double kOffShape = 0.01;
 
 /// The cone that a face lies on.
@@ -33,9 +34,11 @@ struct ConeShape {
 
 /// The cone of a face from its facets: the axis has the same angle to all normals, and apex and slope are
 /// fitted to the facets' corners by least squares.
-/// @return empty if the face is a plane, a sphere or a cylinder, if its normals have unequal angles to every
-///         axis, if a corner is off the cone by more than a hundredth of the largest radius, or if there are
-///         fewer than four facets or their normals turn by less than a few degrees.
+/// @return empty in these cases:
+///         - the face is a plane, a sphere or a cylinder;
+///         - there is no axis with the same angle to all normals;
+///         - a corner is off the cone by more than a hundredth of the largest radius;
+///         - there are fewer than four facets, or their normals turn by less than a few degrees.
 /// @note  O(facets).
 std::optional<ConeShape> cone_shape(const Model& model, FaceId face);
 

@@ -14,7 +14,8 @@ struct CurvePlace {
 };
 
 /// The point where an edge's exact curve meets the plane that is normal to a chord at a given point of the
-/// chord. Models with different chords thus place a shared vertex at the same point of the exact curve.
+/// chord. Models may have different chords for the same edge. A vertex that they share is placed at the same
+/// point of the exact curve in all of them.
 /// @param segment   index of the chord, a segment of the edge's polyline.
 /// @param fraction  position on the chord, in [0, 1].
 /// @pre  the edge has a curve and parameters.

@@ -12,8 +12,8 @@ namespace lacuna::topology {
 struct FaceFacts {
     Eigen::AlignedBox3d box;        ///< bounding box of its facets
     std::vector<FaceId> neighbours; ///< faces that share an edge with it; ascending
-    std::vector<EdgeId> free_edges; ///< edges that no other face uses, without seams; ascending
-    std::size_t part = 0;           ///< number of its connected part, from 0
+    std::vector<EdgeId> free_edges; ///< edges that no other face uses, except seams; ascending
+    std::size_t part = 0;           ///< number of the connected part of the model that contains it, from 0
 };
 
 /// Bounding box of a face's facets.

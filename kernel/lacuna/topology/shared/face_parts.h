@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-/// The parts of one or several faces as one list.
+/// Lists of the edge uses, edges, vertices and facets of one or several faces.
 namespace lacuna::topology {
 
 /// The uses of edges by all loops of a face, in order. @pre the face outlives the view
@@ -22,7 +22,7 @@ inline auto corners_of(const Face& face) { return face.triangles | std::views::j
 /// The facets of some faces, in order.
 std::vector<Triangle> facets_of(const Model& model, const std::vector<FaceId>& faces);
 
-/// The edges of some faces, and the vertices.
+/// The edges of some faces, and the vertices of some faces.
 std::set<EdgeId> edges_of(const Model& model, const std::vector<FaceId>& faces);
 std::set<VertexId> vertices_of(const Model& model, const std::vector<FaceId>& faces);
 

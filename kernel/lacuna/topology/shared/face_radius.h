@@ -17,9 +17,11 @@ struct RoundShape {
 
 /// The cylinder or sphere of a face, from its facets. The axis of a cylinder is normal to all facet normals.
 /// The circle across the axis, or the sphere, is fitted to the corners by least squares.
-/// @return empty if the file declares a plane, a cone or a torus, if all normals are equal, if the facets fit
-///         a cone, if a corner is off the cylinder or sphere by more than a hundredth of the radius, or if
-///         the facets are too few for the shape, as those of a cube are for a sphere.
+/// @return empty in these cases:
+///         - the file declares a plane, a cone or a torus;
+///         - all normals are equal, or the facets fit a cone;
+///         - a corner is off the cylinder or sphere by more than a hundredth of the radius;
+///         - the facets are too few for the shape, such as those of a cube, whose corners lie on a sphere.
 std::optional<RoundShape> round_shape(const Model& model, FaceId face);
 
 /// Radius of round_shape() [model length].

@@ -9,10 +9,10 @@
 
 namespace lacuna::topology {
 
-/// Two close free edges of two unconnected parts of a model.
+/// Two free edges that are close to each other and belong to unconnected parts of a model.
 struct Gap {
     EdgeId own, other;
-    double width = kInfinity; ///< largest distance of an edge's points from the other part [model length]
+    double width = kInfinity; ///< largest distance of a point of `own` from other parts [model length]
 };
 
 /// The gaps between free edges of unconnected parts that are narrow enough to be sewn; the narrowest first,

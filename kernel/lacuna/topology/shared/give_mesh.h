@@ -19,23 +19,22 @@ struct EdgeNodes {
 /// Edges whose nodes are kept, because they are given or belong to a given mesh of a face.
 std::set<EdgeId> kept_edges(const Model& model);
 
-/// Set the nodes of edges; meshing of the adjacent faces keeps them.
+/// Set the nodes of edges. When the adjacent faces are meshed, these nodes are kept.
 ///
-/// The edges become polylines through their nodes and lose their exact curves. Facets next to them are split
-/// at the nodes, and the edges' other points move to the nearest node along the edge.
+/// The edges become polylines through their nodes and lose their exact curves. Adjacent facets are split at
+/// the nodes. Old points of the edges move to the nearest node along the edge.
 /// @throw InvalidInput "topology.nodes_off_edge"  the nodes of an edge are not in its order, or are too few;
 ///         names the edge.
 /// @note  O(facets + nodes × points of an edge).
 void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges);
 
-/// Set quads as the given mesh of a face, as if the file had contained them: the face's facets become the
-/// halves of the quads, its edges become the polylines of the quads' rim, and adjacent faces are adapted to
-/// them.
+/// Set quads as the given mesh of a face, as if the file had contained them. The face's facets become the
+/// halves of the quads, and its edges become the polylines of the quads' rim. The edges lose their exact
+/// curves, and the face its exact surface, because the given mesh replaces them.
 ///
-/// Facets next to the face are split at the rim's nodes, and other points of the edges move to the nearest
-/// node along the edge. A vertex with edges of other faces must be a node of the rim. Other vertices, such as
-/// the start of a closed edge, move to the nearest node; so do the ends of seams. Edges lose their exact
-/// curves and the face its exact surface, because the given mesh replaces them.
+/// Facets of adjacent faces are split at the rim's nodes. Old points of the edges move to the nearest node
+/// along the edge. A vertex at which edges of other faces end must be a node of the rim. Other vertices, such
+/// as the start of a closed edge or the end of a seam, move to the nearest node.
 /// @param nodes  of the mesh [model length].
 /// @param quads  of the mesh, consistently oriented either way. A triangle repeats its last corner.
 /// @throw InvalidInput "topology.mesh_unlike_face"  the quads are not a manifold, their rims do not

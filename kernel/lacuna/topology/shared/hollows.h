@@ -13,32 +13,34 @@ namespace lacuna::topology {
 std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
                               const RunContext& context = {});
 
-/// Orient a closed skin away from the volume: a part around a void in the volume faces that void.
-/// @pre  the faces of each part are oriented consistently.
+/// Orient a closed skin so that its faces point out of the volume. The faces around a void inside the volume
+/// then point into the void.
+/// @pre  the faces of each connected part are oriented consistently.
 void orient_skin(Model& model, const RunContext& context = {});
 
-/// Faces of a solid around a hollow.
+/// Faces of a solid around a hollow, see `hollows()`.
 struct Hollow {
     std::vector<FaceId> faces; ///< ascending
     std::size_t mouths = 0;    ///< number of rims: 0 a void inside the solid, 1 a pocket, 2 or more a bore
 };
 
-/// The hollows of closed skins: sets of faces that are connected over concave or smooth edges and face the
-/// space they surround. A skin inside another one surrounds a void in the solid, whatever its orientation.
-/// Outer skins and skins with free edges are no hollows. Hollows that share a whole rim, such as a bore and
-/// its counterbore, are separate.
+/// The hollows of closed skins. Hollow: a set of faces that are connected over concave or smooth edges, and
+/// that face the space between them. A skin inside another skin is one hollow, whatever its orientation: it
+/// surrounds a void in the solid. Outer skins as a whole and skins with free edges are no hollows. Hollows
+/// that share a whole rim, such as a bore and its counterbore, are separate.
 /// @return in the order of their first faces; empty if the faces cannot be oriented.
 /// @throw Cancelled
 /// @note  Near linear in facets.
 std::vector<Hollow> hollows(const Model& model, const RunContext& context = {});
 
-/// For each hollow, the index of the first hollow in its chain of hollows that share whole rims, such as a
-/// bore and its counterbore.
+/// Group hollows that share a whole rim, directly or through other hollows, such as a bore and its
+/// counterbore. @return  for each hollow, the index of the first hollow of its group.
 std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows);
 
-/// The faces of the cavity of a closed skin to which the given faces belong. These are the faces of their
-/// hollows, of hollows joined to them over a whole rim (a counterbore), and faces that stand inside all these
-/// hollows below the mouths, such as the top of a post.
+/// The faces of the cavity to which the given faces of a closed skin belong:
+/// - the faces of the hollows that contain the given faces;
+/// - the faces of hollows that share a whole rim with these hollows, such as a counterbore;
+/// - the faces of bodies that stand in the cavity and do not reach its mouths, such as a post.
 /// @return ascending; empty if the faces lie in no hollow.
 /// @throw Cancelled
 /// @note  Near linear in facets.

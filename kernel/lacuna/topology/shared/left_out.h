@@ -16,7 +16,7 @@ struct LeftOutFace {
     friend bool operator==(const LeftOutFace&, const LeftOutFace&) = default;
 };
 
-/// Base of the exact curves that also know which faces of the file next to their edge were left out.
+/// Base class of exact curves that store which faces of the file next to their edge were left out.
 class BesideLeftOut {
 public:
     virtual ~BesideLeftOut() = default;
@@ -29,15 +29,15 @@ struct LeftOutBeside {
     std::vector<EdgeId> edges; ///< ascending
 };
 
-/// Faces left out next to `faces`: at edges that `faces` use only once.
+/// The left-out faces next to `faces`: those at edges that `faces` use only once.
 /// @return sorted by their first edges.
-/// @note   O(edges). The information is stored with the exact curves, so it also holds in every model that is
-///         extracted from the loaded one.
+/// @note   O(edges). The exact curves store the left-out faces, so this also works for a model that was
+///         extracted from the loaded model.
 std::vector<LeftOutBeside> left_out_beside(const Model& model, const std::vector<FaceId>& faces);
 
-/// Check before an automatic search for walls or roles, in which a hole counts as part of the void: throw if
-/// the hole is there only because a face of the file was left out.
-/// @param found  what is detected, for the message, such as "walls".
+/// Check that no face was left out next to `faces`. Call this before an automatic search for walls or roles:
+/// the search would take the hole of such a face for a part of the void.
+/// @param found  name of the result of the search, for the message, such as "walls".
 /// @throw InvalidInput "cad.face_left_out"  names the face, one of its edges, and a remedy.
 void require_none_left_out(const Model& model, const std::vector<FaceId>& faces, std::string_view found);
 

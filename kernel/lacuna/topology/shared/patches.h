@@ -18,10 +18,10 @@ struct SmoothPatch {
     Vec3 normal = Vec3::Zero();     ///< unit mean normal
     Vec3 centre = Vec3::Zero();
     double area = 0;
-    double flatness = 0; ///< length of the summed area vector over the area: 1 for a plane
-    double slant = 0;    ///< mean deviation from a right angle to its neighbours, as a share of a right angle
+    double flatness = 0; ///< length of the summed area vector divided by the area: 1 for a plane
+    double slant = 0;    ///< mean deviation of the angle to its neighbours from 90°, as a share of 90°
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); ///< sum of area n nᵀ over the facets
-    long corners = 0; ///< sum of the turns at its rims' vertices, in quarter turns: 4 for a rectangle
+    long corners = 0; ///< sum over the rims' vertices of the turn there in quarter turns: 4 for a rectangle
 };
 
 /// For each edge, the mean angle between the normals of its two faces, negative if the edge is concave

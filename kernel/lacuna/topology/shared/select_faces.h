@@ -17,8 +17,8 @@ struct FaceSelector {
     std::string name, kind, region;
     std::optional<Vec3> facing, near; ///< `facing` of length 1
     double normal_within = 30;        ///< of `facing` [degrees]
-    std::optional<double> within; ///< if set, select all faces within this distance of `near`, not only the
-                                  ///< closest [model length]
+    /// If set, all faces within this distance of `near` are selected, not only the closest [model length].
+    std::optional<double> within;
     std::array<double, 2> area{0, std::numeric_limits<double>::infinity()};
     std::optional<std::array<double, 2>> radius;
     std::optional<Eigen::AlignedBox3d> box;
@@ -30,7 +30,8 @@ struct FaceSelector {
     std::string touching_name;
 };
 
-/// The tag of the face that was kept where the file lists a face twice; empty for any other face.
+/// If the file lists a face twice, one of the two is dropped on loading. For the tag of a dropped face: the
+/// tag of the face that was kept. Empty for any other tag.
 std::optional<int> kept_of_two(const Model& model, int tag);
 
 /// The selected faces, in the model's order. A tag of a face that the file lists twice selects the face that
@@ -38,7 +39,7 @@ std::optional<int> kept_of_two(const Model& model, int tag);
 /// @throw InvalidInput "lua.other_model", "lua.no_face"  `touching` names no face of the model.
 std::vector<FaceId> select(const Model& model, FaceSelector selector);
 
-/// Whether a name is that of a face or of one of its groups.
+/// Whether a face or one of its groups has a name.
 bool is_called(const Face& face, const std::string& name);
 
 /// Unit mean normal of the facets; zero if they cancel, as around a whole tube.

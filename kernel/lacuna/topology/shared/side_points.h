@@ -13,7 +13,8 @@ namespace lacuna::topology {
 /// Points to be inserted on facet sides, at which facets are then split.
 class SidePoints {
 public:
-    /// Add points between `a` and `b`, in that order. A side that has points already keeps its own instead.
+    /// Set the points of the side between `a` and `b`, in that order. If the side has points already, nothing
+    /// changes.
     void add(Index a, Index b, std::vector<Index> between);
     [[nodiscard]] bool empty() const { return between_.empty(); }
     /// The points between `a` and `b`, in that order; empty if the side is not split.
@@ -30,8 +31,10 @@ struct ParamFacet {
     std::array<Vec2, 3> uv{Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
 };
 
-/// The facets that a facet is split into: fans from the corner opposite each side that has points; the facet
-/// itself if no side has points. Parameters of new corners are interpolated along the side.
+/// Split a facet at the points on its sides. A fan from the corner opposite the first side with points splits
+/// the facet; the pieces are then split in the same way at the other sides. Surface parameters of new corners
+/// are interpolated along the side.
+/// @return  the pieces; the facet itself if no side has points.
 /// @pre  no inserted point is a corner of the facet.
 std::vector<ParamFacet> cut_at_sides(std::span<const Vec3> points, const ParamFacet& facet,
                                      const SidePoints& sides);
@@ -46,12 +49,13 @@ bool repeats(std::span<const Index> corners);
 /// Split the facets of a face; its given quads do not change.
 void cut_at_sides(std::span<const Vec3> points, Face& face, const SidePoints& sides);
 
-/// Insert a point into the side of two facets of a face, on its exact surface if there is one.
-/// @return  the point; -1 on the face's rim, which keeps its points.
+/// Insert a point into a side between two facets of a face. If the face has an exact surface, the point lies
+/// on this surface.
+/// @return  the point; -1 if the side is on the face's rim: then nothing changes.
 Index point_on_side(ModelBuilder& model, FaceId face, Index a, Index b, double fraction);
 
-/// The point of a face's facets closest to a place: a corner within the tolerance, or a new point on a side
-/// or inside a facet, as by `point_on_side()`.
+/// The point of a face's facets closest to a place. A corner of a facet within the tolerance of this point is
+/// returned. Otherwise a new point is inserted, on a side as by `point_on_side()` or inside a facet.
 /// @note  O(facets).
 Index point_on_face(ModelBuilder& model, FaceId face, const Vec3& place);
 

@@ -9,14 +9,18 @@
 
 namespace lacuna::topology {
 
-/// The groups of each face's quads in output files: the group of its role, `source`, `target`, `wall:12` or
-/// `void:12`, and its own name if it has one. Files whose groups do not overlap use the first group: the name
-/// that the user or the input gave to the face, otherwise the role. A name that equals a role or another
-/// face's group gets the suffix "_2", or the next free number, so that boundary conditions stay on their
-/// faces. Case is ignored, as in Abaqus.
+/// The groups of each face's quads in output files: a role group (`source`, `target`, `wall:12` or
+/// `void:12`), and the face's own name if it has one. File formats that allow one group per quad use the
+/// first group.
 ///
-/// These names come after the role: a name of the solids that a face bounds, a number as a name (`pid:7`,
-/// `physical_7`), and a name that all given faces share if they have several roles.
+/// The first group is the face's name, if the user or the input gave it one. The role group comes first if
+/// there is no name, or if the name does not identify the face:
+/// - it is the name of a solid that the face bounds;
+/// - it is a number (`pid:7`, `physical_7`);
+/// - all given faces have this name, and they have several roles.
+///
+/// A name that equals the role group of another face gets the suffix "_2", or the next free number, so that
+/// boundary conditions stay on their faces. Case is ignored, as in Abaqus.
 std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume);
 
 /// Whether a group is a role group: `source`, `target`, `wall:12` or `void:12`, in any case.

@@ -9,9 +9,9 @@
 
 namespace lacuna::topology {
 
-/// The next free tag of the entities of an origin.
-/// @param first  the entity to start at
-/// @param tag    the next free tag of the entities before `first`
+/// The lowest tag above those of all entities with the given origin.
+/// @param first  index of the entity at which the search starts
+/// @param tag    the result for the entities before `first`
 template <class Entity>
 int next_tag(const std::vector<Entity>& all, Origin origin, std::size_t first = 0, int tag = 1)
 {
@@ -32,12 +32,14 @@ struct EdgeSplit {
 
 /// Split an edge at a fraction of its polyline's length, in the edge's direction.
 ///
-/// The edge keeps its id and tag up to the new vertex. The vertex gets a new point, that of `curve_beside()`
-/// if the edge has an exact curve, and adjacent facets are split there with interpolated surface parameters.
-/// An inner point of the edge within the tolerance becomes the vertex instead. If an adjacent face has a
-/// given mesh, whose nodes are fixed, the nearest inner point becomes the vertex at any distance. The loops
-/// of all adjacent faces then use both parts, a seam's loop in both directions. A closed edge also keeps its
-/// old vertex.
+/// The edge keeps its id and tag up to the new vertex. The point of the vertex is:
+/// - if an adjacent face has a given mesh, whose nodes are fixed: the nearest inner point of the edge;
+/// - else an inner point of the edge within the tolerance, if there is one;
+/// - else a new point, on the exact curve (`curve_beside()`) if the edge has one. Adjacent facets are split
+///   there, with interpolated surface parameters.
+///
+/// The loops of all adjacent faces then use both parts; the loop of a seam uses them in both directions. A
+/// closed edge also keeps its old vertex.
 ///
 /// @param fraction  in (0, 1).
 /// @throw InvalidInput  the fraction is not in (0, 1), or the split is within the tolerance of an end; or an

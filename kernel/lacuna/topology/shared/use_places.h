@@ -13,8 +13,7 @@ constexpr EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
 /// Summed length of the edges [model length].
 double length_of(const Model& model, const std::vector<EdgeUse>& uses);
 
-/// Points along consecutive uses, both ends included; a point where two uses meet is listed once.
-/// `use_points()` of model.h does this for a single use.
+/// Points along consecutive uses, both ends included. A point where two uses meet is listed once.
 /// @pre  uses is not empty.
 std::vector<Index> use_points(const Model& model, const std::vector<EdgeUse>& uses);
 
