@@ -106,8 +106,9 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     region.points = rims.mean;
     region.size = [&](const Vec2& p) { return size(rims.lifted(p)); };
     if (geometry::find_crossing(region.points, region.loops))
-        throw NotSweepable("sweep.mean_outline",
-                           "the source cannot be laid out between both outlines: their mean crosses itself");
+        throw NotSweepable(Message("sweep.mean_outline", "the source cannot be meshed in a plane, because "
+                                                         "the mean of both ends' outlines crosses itself")
+                               .remedy("cut the volume between source and target"));
     const quads::PlanarQuads filling = mesher(region, context);
 
     mesh::QuadMesh flat;

@@ -159,9 +159,10 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
     for (const Region& region : regions) most = std::max(most, region.mesh->layers);
     const auto [from, to] = *options.layers;
     if (from < 1 || to < from || from > most)
-        throw InvalidInput("view.layers",
-                           "picture: option 'layers' is {} to {}, but the mesh has layers 1 to {}",
-                           found(from), found(to), needed(most));
+        throw InvalidInput(Message("view.layers",
+                                   "picture: option 'layers' is {} to {}, but the mesh has layers 1 to {}",
+                                   found(from), found(to), needed(most))
+                               .remedy("give first and last layer, in this order"));
 }
 
 /// For each part, the number of its region. Parts with the same name, such as copies, form one region.
