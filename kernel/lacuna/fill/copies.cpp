@@ -141,8 +141,8 @@ InCommon in_common(const Skin& skin, const Eigen::Affine3d& by, double diagonal,
     for (const Vec3& p : skin.places) points.push_back(by * p);
     const std::vector<Index> same = healing::weld(points, kSamePlace * diagonal, context);
     InCommon found;
-    std::vector<Index> twin(count, -1); // by node of the copy: the same node of the mesh; -1: none
-    std::vector<char> shared(count, 0); // by node of the mesh: whether the copy has it
+    std::vector<Index> twin(count, -1); // for each node of the copy: the mesh's node at its place; -1: none
+    std::vector<char> shared(count, 0); // for each node of the mesh: whether the copy has a node there
     for (std::size_t i = 0; i < count; ++i) {
         if (index(same[count + i]) >= count) continue;
         twin[i] = same[count + i];

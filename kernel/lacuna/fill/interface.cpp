@@ -150,7 +150,7 @@ private:
             "name one of the pairs of regions that share faces: faces = {}{}{}", "{ ", pairs.front(), " }"));
     }
 
-    /// Parts that stay connected at a node of a split face get a node of their own there.
+    /// At each node of a split face, give every set of parts that stay connected there its own node.
     void number_nodes()
     {
         std::map<Index, std::vector<const SharedSide*>> at; // by node of a split face: shared sides there

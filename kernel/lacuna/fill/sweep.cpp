@@ -265,15 +265,16 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     sweep::SweepOptions options = request.options;
     options.layered = false;
     options.crew = nullptr;
-    // One size for all pieces: the default sizes of single pieces would not suit their neighbours.
+    // All pieces get the same size, because the default sizes of neighbouring pieces would differ.
     if (!options.size) {
         options.size = surface::even_size(surface::default_size(volume.volume).length);
         options.gap = std::max(options.gap, sweep::kDefaultGap);
     }
     Volume sealed = sealed_whole(volume, context);
     PieceMesher mesher(sealed, why, options, static_cast<bool>(request.options.size), context);
-    // A volume of which less than this share can be swept is filled with tetrahedra alone. A choice: on the
-    // bodies of the tests, pieces of such volumes took up to a minute and gave a fifth of hexahedra at most.
+    // A volume of which less than this share can be swept is filled with tetrahedra alone. On the bodies of
+    // the tests, meshing such volumes in pieces took up to a minute, and at most a fifth of the volume became
+    // hexahedra.
     constexpr double kWorthMixing = 0.5;
     // Partitions with pieces that have no ends, by the share of the volume in the pieces with ends.
     std::multimap<double, std::vector<closure::StepPiece>, std::greater<>> partial;
