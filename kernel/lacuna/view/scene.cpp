@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kFaceOfQuadSide[] = {2, 1, 3, 0}; // face of the cell over side k of its source quad
 constexpr std::size_t kBottom = 4, kTop = 5;
 constexpr Colour kFreeEdge{214, 39, 40}, kEdge{40, 50, 60}, kVoidEdge{190, 110, 10};
-constexpr Colour kPlain{240, 240, 240}; // key of hatching alone
+constexpr Colour kPlain{240, 240, 240}; // colour of the legend's key for hatching
 
 /// The visible cells of a swept region.
 class ShownRegion {
