@@ -34,7 +34,7 @@ struct FilledVolume {
 /// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
 struct FilledTets {
     mesh::TetPart mesh;
-    std::vector<Index> number; ///< by node of `mesh`: its number in the whole mesh, from 0
+    std::vector<Index> number; ///< for each node of `mesh`, its number in the whole mesh, from 0
     std::size_t shared = 0;    ///< number of sides of its skin that it shares with meshes made before it
     std::string region;
     quality::Quality quality;        ///< measured when the mesh was proved

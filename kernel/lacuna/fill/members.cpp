@@ -55,8 +55,8 @@ void for_each_names(Options& options, const Do& give)
         if (interval.of == surface::Interval::Of::wall) give("intervals", interval.walls);
 }
 
-/// Options for several volumes may name faces that only one of them has. Drop the faces that the member does
-/// not have.
+/// Drop the faces that a member does not have from its options: options for several volumes may name faces
+/// that only one of these volumes has.
 void keep_known_faces(sweep::AssemblyMember& member)
 {
     for_each_names(member.options, [&](const char*, surface::FaceNames& names) {
@@ -261,7 +261,7 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
 /// The parts of an assembly, ready to be meshed.
 struct Prepared {
     std::vector<sweep::AssemblyMember> members;
-    std::vector<std::string> materials; ///< by member
+    std::vector<std::string> materials; ///< for each member, its material
     std::vector<Part*> parts;
     std::vector<sweep::LeftOut> left_out;
 };
