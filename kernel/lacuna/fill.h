@@ -33,7 +33,8 @@ namespace lacuna::fill {
 /// Options for sweeping one volume.
 struct SweepRequest {
     sweep::SweepOptions options;
-    /// With `options.layered`: whether pieces of a cut volume may also compute their nodes during writing.
+    /// With `options.layered`: whether the pieces of a volume that is cut may also compute their nodes only
+    /// when they are written.
     bool layered_parts = true;
 };
 
@@ -54,11 +55,12 @@ struct Request {
 /// @throw  the errors of these functions; the model is not modified.
 Filled fill(const topology::Model& model, const Request& request = {}, const RunContext& context = {});
 
-/// Close a volume if it is still open, and sweep it. A volume with steps or branches, or one that makes a
-/// full turn, is cut and its pieces are swept. If the roles were found and the volume cannot be swept with
-/// them, the alternative sweeps of the same void are tried in turn; the report names the sweep that was used.
-/// @return  `volumes` holds the one volume with the roles of the successful sweep, sealed unless it was cut.
-/// @throw NotSweepable, NotClosed  the reason why the first sweep failed.
+/// Close a volume if it is still open, and sweep it. A volume with steps or branches, or a full-turn volume,
+/// is cut and its pieces are swept. If the user did not name the roles and the sweep fails, the alternative
+/// sweeps of the same void (other sources and targets) are tried in turn; the report names the one used.
+/// @return  `volumes` contains the one volume with the roles of the successful sweep, sealed unless it was
+/// cut.
+/// @throw NotSweepable, NotClosed  the reason why the first of these sweeps failed.
 /// @throw InvalidInput  the errors of `sweep::sweep()`.
 /// @throw Cancelled
 Filled sweep(const Volume& volume, const SweepRequest& request = {}, const RunContext& context = {});
@@ -69,15 +71,16 @@ struct Member {
     const FilledVolume* mesh = nullptr;
     const FilledParts* parts = nullptr;
     sweep::SweepOptions options{}; ///< for `volume`
-    /// Whether these options were given for this volume alone. If so, this volume must have the faces that
-    /// they name; otherwise it is enough that one volume of the assembly has them.
+    /// Whether the boundary layers, and the intervals, were given for this volume alone. Then this volume
+    /// must have the faces that these options name. Otherwise it is enough that one volume of the assembly
+    /// has these faces.
     bool own_boundary_layers = false, own_intervals = false;
 };
 
 /// Contact pairs of an assembly: all faces of two regions that touch, or face each other within a gap.
 struct ContactRequest {
-    double gap = 0;   ///< of all regions without an entry of their own [model length]
-    bool tied = true; ///< whether these regions are tied; otherwise they are in contact
+    double gap = 0;   ///< for pairs of regions without an entry of their own [model length]
+    bool tied = true; ///< whether these pairs are tied; otherwise they can slide and separate (contact)
     struct Pair {
         std::array<std::string, 2> regions;
         std::string name; ///< empty: "a_b", of the regions
@@ -87,9 +90,10 @@ struct ContactRequest {
     std::vector<Pair> pairs;
 };
 
-/// Find the faces of two regions in contact by `sweep::faces_in_contact()`, with one entry for each pair of
-/// regions. The first overload takes the members of an assembly, which are closed first. The second takes a
-/// model, whose bodies are its regions or, if faces have none, the parts that no edge connects.
+/// Find the faces in contact by `sweep::faces_in_contact()`. The result has one entry for each pair of
+/// regions in contact. The first overload takes the members of an assembly and closes them first. The second
+/// takes a model. Its bodies are its regions or, if its faces have no regions, its parts that no edge
+/// connects.
 /// @throw InvalidInput "fill.contact_region"  a pair names an unknown region; "fill.contact_none"  the
 ///         regions of a pair have no faces within the gap; "fill.contact_name"  two pairs have one name;
 ///         "fill.contact_bodies"  the model has one body. Or the errors of `sweep::faces_in_contact()` and
@@ -110,9 +114,9 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
 Filled sweep(std::span<const Member> members, const RunContext& context = {},
              const ContactRequest& request = {});
 
-/// A copy of a mesh, rotated, translated or mirrored. Cells of a mirrored mesh stay positive: their quads are
-/// turned over. In an assembly, nodes of the copy that differ from those of other members by rounding only
-/// are moved onto them.
+/// A copy of a mesh, rotated, translated or mirrored. In a mirrored mesh the quads are turned over, so that
+/// cells keep positive volumes. In an assembly, if a node of the copy differs from a node of another member
+/// by rounding only, it is moved onto that node.
 /// @param by    a motion or mirroring that keeps all lengths.
 /// @param name  name of the copy's region. If the mesh has several regions, their names start with it. Empty:
 ///              regions keep their names.
@@ -123,14 +127,14 @@ FilledParts moved(FilledParts mesh, const Eigen::Affine3d& by, const std::string
 
 struct PatternOptions {
     int count = 2;         ///< copies, the mesh itself included, >= 1
-    bool numbered = false; ///< regions are named `name_1`, `name_2` …; else copies are one region
+    bool numbered = false; ///< whether copies are regions `name_1`, `name_2` …; otherwise one region
 };
 
 /// A mesh and its copies as one mesh. Each copy is the previous one, moved by `step`.
 ///
-/// Faces that coincide become one: they share their nodes and leave their groups. Copies of a group form one
-/// group. Only the first mesh is compared with the copies: any two copies are placed like the first mesh and
-/// one of its copies.
+/// Two faces that coincide become one inner face: they share their nodes and are removed from their groups.
+/// Copies of a group form one group. It is enough to compare the first mesh with its copies, because any two
+/// copies lie relative to each other like the first mesh and one of its copies.
 /// @throw InvalidInput "fill.pattern_count"  the count is below 1; "fill.copy_mixed"  the mesh has
 ///         tetrahedra. Or the errors of `sweep::sweep_assembly()`: copies overlap, or share part of a face.
 /// @throw NotSweepable "assembly.not_shared"  faces coincide, but their quads differ; "assembly.hanging_node"

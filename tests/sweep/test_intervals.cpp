@@ -254,7 +254,8 @@ TEST_CASE("sides asked for and rows that end on an edge add up, or are refused")
     }
     SweepOptions few = with_intervals({on_edge(volume.model[beside].tag, 3)});
     few.boundary_layers = {layer};
-    CHECK(test::refusal([&] { sweep::sweep(volume, few); }, {"end with 3 sides"}) == "surface.sides_asked");
+    CHECK(test::refusal([&] { sweep::sweep(volume, few); }, {"3 rows of boundary layers end there"}) ==
+          "surface.sides_asked");
 }
 
 TEST_CASE("layers follow a size that changes along the sweep, and are even where it does not")

@@ -161,8 +161,9 @@ void add_merged(CadFiles& files, std::size_t first, const std::string& folder, c
         const std::string own = folder + name;
         std::string text = text_of(files.descriptors[first + i], kLongestScript + 1);
         if (text.size() > kLongestScript)
-            throw InvalidInput("cad.script", "{} is too long for a script ({} MiB at most)", own,
-                               needed(kLongestScript >> 20));
+            throw InvalidInput(Message("cad.script", "{} is too long for a script ({} MiB at most)", own,
+                                       needed(kLongestScript >> 20))
+                                   .remedy("split the script by Include, or export the geometry as STEP"));
         const ScriptContent found = look_through_script(own, text);
         if (i > 0 && !found.skipped.empty() && found.skipped.back().word == "Exit")
             throw InvalidInput(
@@ -174,8 +175,10 @@ void add_merged(CadFiles& files, std::size_t first, const std::string& folder, c
         for (const ScriptFile& wanted : found.files) {
             if (std::ranges::find(contents, wanted.name, &SentFile::name) != contents.end()) continue;
             if (contents.size() == kMostContents)
-                throw InvalidInput("cad.script", "{}, line {}: the script includes more than {} files", own,
-                                   wanted.line, needed(kMostContents - 1));
+                throw InvalidInput(Message("cad.script",
+                                           "{}, line {}: the script includes more than {} files", own,
+                                           wanted.line, needed(kMostContents - 1))
+                                       .remedy("join some of these files"));
             if (::access((folder + wanted.name).c_str(), F_OK) != 0) {
                 throw InvalidInput(
                     Message("cad.script",

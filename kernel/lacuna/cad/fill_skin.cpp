@@ -47,9 +47,10 @@ std::string words_for(const ClosedSkin& skin)
 void check_closed(const ClosedSkin& skin, const std::vector<SkinSide>& sides)
 {
     const auto open = [&](Index at) {
-        throw InvalidInput("cad.skin_open",
-                           "{} is not closed, or its faces are not oriented consistently, near {}",
-                           words_for(skin), place_with_digits(skin.points[index(at)], 6));
+        throw InvalidInput(Message("cad.skin_open",
+                                   "{} is not closed, or its faces are not oriented consistently, near {}",
+                                   words_for(skin), place_with_digits(skin.points[index(at)], 6))
+                               .remedy("close the gap there, and orient all faces outward"));
     };
     std::map<std::pair<Index, Index>, int> balance;
     for (const SkinSide& s : sides) {
@@ -67,9 +68,10 @@ void check_numbers(const ClosedSkin& skin)
     const auto all = [&](const auto& face) { return std::ranges::all_of(face, in_range); };
     if (!std::ranges::all_of(skin.triangles, all) || !std::ranges::all_of(skin.quads, all) ||
         !std::ranges::all_of(skin.points, [](const Vec3& p) { return p.allFinite(); }))
-        throw InvalidInput("cad.skin_open",
-                           "{} has faces with invalid point numbers, or points that are not finite",
-                           words_for(skin));
+        throw InvalidInput(Message("cad.skin_open",
+                                   "{} has faces with invalid point numbers, or points that are not finite",
+                                   words_for(skin))
+                               .remedy("check the points and faces of the skin"));
 }
 
 /// Six times the volume that facets enclose. The origin should be near the facets, for precision.
@@ -213,7 +215,9 @@ TetMesh fill_skin(const ClosedSkin& skin, const RunContext& context)
     check_numbers(skin);
     const std::vector<SkinSide> sides = skin_sides(skin);
     check_closed(skin, sides);
-    if (sides.empty()) throw InvalidInput("cad.skin_open", "a skin without faces cannot be filled");
+    if (sides.empty())
+        throw InvalidInput(Message("cad.skin_open", "a skin without faces cannot be filled")
+                               .remedy("give the faces of a closed skin"));
     const PyramidLayer layer = place_pyramids(skin, sides, context);
     const FillSkinRequest request{layer.points, split_into_shells(skin, layer, sides)};
     const double expected = expected_tets(request.points, request.shells);

@@ -265,8 +265,8 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
     if (!process_) {
         ::kill(pid_, SIGKILL);
         ::waitpid(pid_, nullptr, 0);
-        throw BackendError("cad.no_worker",
-                           "the CAD process needs a kernel with pidfd_open (Linux 5.3 or later)");
+        throw BackendError(Message("cad.no_worker", "the CAD process needs the system call pidfd_open")
+                               .remedy("use a kernel of Linux 5.3 or later"));
     }
     channel_ = std::make_unique<Channel>(std::move(ours));
     try {
@@ -372,8 +372,10 @@ std::unique_lock<std::timed_mutex> Worker::enter(const Task& task)
         if (task.context != nullptr) check_cancelled(*task.context);
     notice_end();
     if (ended_)
-        throw WorkerGone("cad.worker_ended", "{}: the CAD process had ended ({})", task.subject,
-                         end_.empty() ? how_it_ended() : end_);
+        throw WorkerGone(Message("cad.worker_ended", "{}: the CAD process ended before this request ({})",
+                                 task.subject, end_.empty() ? how_it_ended() : end_)
+                             .remedy("try again, or allow more with LACUNA_CAD_SECONDS and "
+                                     "LACUNA_CAD_MEGABYTES"));
     return lock;
 }
 

@@ -182,8 +182,9 @@ private:
     }
     [[noreturn]] static void fail()
     {
-        throw BackendError("cad.no_wall",
-                           "the CAD process cannot be confined: libseccomp failed to make a filter");
+        throw BackendError(
+            Message("cad.no_wall", "the CAD process cannot be confined: libseccomp failed to make a filter")
+                .remedy("check the installation of libseccomp"));
     }
 
     std::unique_ptr<void, void (*)(void*)> rules_;
@@ -293,9 +294,11 @@ std::string confine()
         throw BackendError("cad.no_wall", "the CAD process cannot be confined: {}", std::strerror(errno));
     const bool landlock = restrict_files();
     if (!make_filter().install())
-        throw BackendError("cad.no_wall",
-                           "the CAD process cannot be confined: the Linux kernel of this system has no "
-                           "seccomp filters");
+        throw BackendError(
+            Message("cad.no_wall",
+                    "the CAD process cannot be confined: the Linux kernel of this system has no "
+                    "seccomp filters")
+                .remedy("use a kernel with CONFIG_SECCOMP_FILTER"));
     return landlock ? "" : "Landlock, which keeps the CAD process from reading other files";
 }
 

@@ -272,10 +272,10 @@ bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
         if (!on(at) || ends[index(at)] != 0) continue;
         throw InvalidInput(
             Message("closure.along_axis",
-                    "{} touches the axis away from the edges that lie on it, and cells there would "
-                    "have no width",
+                    "{} lies on the axis, but on none of the source's edges along the axis, and cells "
+                    "there would have no width",
                     entity_of(model, VertexId(v)))
-                .remedy("cut the region around it out of the source"));
+                .remedy("cut the region around this vertex out of the source"));
     }
     return true;
 }

@@ -271,12 +271,13 @@ private:
         for (const FaceId face : found_.faces[mouth.branch]) {
             const double facing = std::abs(face_area_vector(model, face).dot(outward));
             if (!is_at(mouth, face) || facing <= kAlongWay * face_area(model, face)) continue;
-            throw NotSweepable(Message("closure.branches",
-                                       "the branch of {} on {} reaches beyond the side of the main body: "
-                                       "next to its mouth, the normal of {} points along the branch",
-                                       wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host),
-                                       entity_of(model, face))
-                                   .remedy("move the branch towards the middle, or make it narrower"));
+            throw NotSweepable(
+                Message("closure.branches",
+                        "the branch of {} on {} reaches beyond the side of the main body, because "
+                        "the normal of {}, next to the branch's mouth, points along the branch",
+                        wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host),
+                        entity_of(model, face))
+                    .remedy("move the branch towards the middle, or make it narrower"));
         }
     }
 

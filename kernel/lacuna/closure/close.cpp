@@ -48,10 +48,12 @@ void prove_sealed(const OpenVolume& volume)
                             .remedy("check the faces next to it"));
     }
     if (!(enclosed_volume(volume) > 0)) {
-        throw NotClosed("closure.no_volume",
-                        "the sealed faces enclose a volume of {:.3g}, which is not positive: source and "
-                        "target coincide, or the faces between them are twisted",
-                        found(enclosed_volume(volume)));
+        throw NotClosed(
+            Message("closure.no_volume",
+                    "the sealed faces enclose a volume of {:.3g}, which is not positive: source and "
+                    "target coincide, or the faces between them are twisted",
+                    found(enclosed_volume(volume)))
+                .remedy("check the roles, or pair vertices with match{{ vertices = … }}"));
     }
 }
 
@@ -278,9 +280,11 @@ private:
         const Tools tools{way, leads() ? &*follower_ : nullptr, options_.void_edges, context_};
         Closure closure = close_as(sealed, match, value_, tools);
         if (const auto crossing = first_crossing(sealed, context_)) {
-            throw NotClosed("closure.faces_cross", "{} would cross {}",
-                            entity_of(sealed.model, crossing->first),
-                            entity_of(sealed.model, crossing->second));
+            throw NotClosed(
+                Message("closure.faces_cross", "{} of the closing would cross {}",
+                        entity_of(sealed.model, crossing->first), entity_of(sealed.model, crossing->second))
+                    .remedy(
+                        "give the missing face there, or close with another edge_shape, cap or void_edges"));
         }
         prove_sealed(sealed);
         closure.watertight = true;

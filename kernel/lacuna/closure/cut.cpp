@@ -131,7 +131,7 @@ private:
         if (least < 0 && most > 0)
             throw NotSweepable(
                 Message("closure.cut_misses", "the plane passes between the faces without crossing any")
-                    .remedy("close the volume first, then its void faces are cut"));
+                    .remedy("close the volume first: volume:cut() then also cuts its void faces"));
         throw NotSweepable(Message("closure.cut_misses",
                                    "the plane misses the volume, which reaches from {:.4g} to {:.4g} along "
                                    "the normal, measured from the plane's point",
@@ -194,8 +194,10 @@ private:
                 return geometry::lies_inside(loop, foot);
             };
             if (std::ranges::count_if(loops, is_round) % 2 != 0)
-                throw NotSweepable("closure.cut_thin", "the plane passes {} at a distance of {:.2g}",
-                                   entity_of(model_, edge), found(std::abs(geometry::height(plane_, place))));
+                throw NotSweepable(
+                    Message("closure.cut_thin", "the plane passes {} at a distance of only {:.2g}",
+                            entity_of(model_, edge), found(std::abs(geometry::height(plane_, place))))
+                        .remedy("move the plane away from this edge"));
         }
     }
 
@@ -209,8 +211,10 @@ private:
                 for (const Index p : corners_of(model[face]))
                     most = std::max(most, std::abs(geometry::height(plane_, model.at(p))));
             if (most < least)
-                throw NotSweepable("closure.cut_thin", "the plane cuts off a piece that is {:.2g} thick",
-                                   found(most));
+                throw NotSweepable(Message("closure.cut_thin",
+                                           "the plane cuts off a piece that is only {:.2g} thick",
+                                           found(most))
+                                       .remedy("move the plane along its normal, into the volume"));
         }
     }
 
@@ -303,9 +307,11 @@ private:
             for (const std::vector<EdgeUse>& line : open) lines.push_back(flat_line(line));
             const std::vector<std::size_t> follower = join(lines);
             if (follower.empty())
-                throw NotSweepable(Message("closure.cut_gaps", "the plane crosses walls with gaps that "
-                                                               "straight lines do not join to simple loops")
-                                       .remedy("close the volume first, then its void faces are cut"));
+                throw NotSweepable(Message("closure.cut_gaps",
+                                           "the plane crosses gaps between the walls, and no straight lines "
+                                           "across these gaps close the section")
+                                       .remedy("close the volume first: volume:cut() then also cuts its void "
+                                               "faces"));
             std::vector<char> seen(open.size(), 0);
             for (std::size_t i = 0; i < open.size(); ++i) {
                 if (seen[i] != 0) continue;

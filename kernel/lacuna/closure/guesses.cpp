@@ -311,8 +311,8 @@ void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
     const double half_ball = 2 * std::numbers::pi / 3 * std::pow(largest, 3);
     assume(closure,
            Message("closure.flat_assumed",
-                   "flat faces are assumed in the circles beside {}: {}; balls, cones and rings go through a "
-                   "circle as well, and half a ball changes the volume by {:.2g} %",
+                   "flat faces are assumed in the circles beside {}: {}. Part of a ball, a cone or a ring "
+                   "can end in such a circle, too, and half a ball would change the volume by {:.2g} %",
                    entities_of(model, beside), entities_of(model, flat), 100 * half_ball / enclosed)
                .remedy("if a true face is not flat or has a hole, give it"),
            1);
@@ -387,13 +387,14 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
     for (const FaceId face : closure.void_faces) {
         const auto shape = round_shape(sealed.model, face);
         if (inward && shape && shape->is_sphere())
-            assume(closure,
-                   Message("closure.ball_part",
-                           "{} is the smaller part of the ball through its rim, although the faces beside it "
-                           "face into the volume",
-                           entity_of(sealed.model, face))
-                       .remedy("if the other part bounds the volume, give it"),
-                   1);
+            assume(
+                closure,
+                Message("closure.ball_part",
+                        "{} is the smaller part of the ball through its rim, although the faces beside this "
+                        "rim are oriented into the volume",
+                        entity_of(sealed.model, face))
+                    .remedy("if the other part bounds the volume, give it"),
+                1);
     }
     for (const auto& [round, filler] : closed_holes(given.size(), sealed.model, closure.void_faces)) {
         const bool wall = sealed.role[filler.index()] == Role::wall;
@@ -407,13 +408,13 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
                        .remedy("if there is a pocket, give its faces"),
                    area * std::sqrt(area) / enclosed_volume(sealed));
         else
-            assume(closure,
-                   Message("closure.hole_covered",
-                           "a hole of {} is covered, because the faces face into the void", face)
-                       .remedy("with this face as source, close{{ holes = \"through\" }} extends the hole to "
-                               "the missing end"),
-                   area * reach_of_others(sealed.model, closure.void_faces, filler) /
-                       enclosed_volume(sealed));
+            assume(
+                closure,
+                Message("closure.hole_covered",
+                        "a hole of {} is covered, because the given faces are oriented into the void", face)
+                    .remedy("with this face as source, close{{ holes = \"through\" }} extends the hole to "
+                            "the missing end"),
+                area * reach_of_others(sealed.model, closure.void_faces, filler) / enclosed_volume(sealed));
     }
 }
 

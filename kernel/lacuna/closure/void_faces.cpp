@@ -110,11 +110,11 @@ std::vector<Loop> void_loops(const OpenVolume& volume, const std::vector<EdgeId>
         if (!walker.open(start)) continue;
         const std::vector<EdgeUse> path = walker.walk(start);
         if (path.empty()) {
-            throw NotClosed(Message("closure.walk_open",
-                                    "the walk from free {} along free edges does not return to its start",
-                                    entity_of(model, start.edge))
-                                .remedy("check the faces next to it, or pair the vertices with match{{ "
-                                        "vertices = … }}"));
+            throw NotClosed(
+                Message("closure.walk_open", "the free edges from {} on do not form a closed loop",
+                        entity_of(model, start.edge))
+                    .remedy("check the faces next to this edge, or pair the vertices with match{{ "
+                            "vertices = … }}"));
         }
         walker.take(path);
         loops.push_back({path});

@@ -16,8 +16,8 @@ namespace {
 
 using sweep::AssemblyMember;
 
-/// Two sides of a contact count as equal in area if their areas differ by less than this share. Facets of
-/// different fineness cause such differences.
+/// Two sides of a contact count as equal in area if their areas differ by less than this share. Equal curved
+/// faces with different facets have slightly different areas.
 constexpr double kAlike = 0.01;
 
 const std::string& region_of(const AssemblyMember& member)

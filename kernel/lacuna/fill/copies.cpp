@@ -141,8 +141,8 @@ InCommon in_common(const Skin& skin, const Eigen::Affine3d& by, double diagonal,
     for (const Vec3& p : skin.places) points.push_back(by * p);
     const std::vector<Index> same = healing::weld(points, kSamePlace * diagonal, context);
     InCommon found;
-    std::vector<Index> twin(count, -1); // by node of the copy: the same node of the mesh; -1: none
-    std::vector<char> shared(count, 0); // by node of the mesh: whether the copy has it
+    std::vector<Index> twin(count, -1); // for each node of the copy: the mesh's node at its place; -1: none
+    std::vector<char> shared(count, 0); // for each node of the mesh: whether the copy has a node there
     for (std::size_t i = 0; i < count; ++i) {
         if (index(same[count + i]) >= count) continue;
         twin[i] = same[count + i];
@@ -278,7 +278,7 @@ FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const Pattern
     report_progress(context, "copies");
     const Eigen::AlignedBox3d box = box_of(mesh);
     std::vector<Eigen::Affine3d> moves{Eigen::Affine3d::Identity()};
-    std::vector<InCommon> common(count); // by k: nodes and sides that copies share if they are k steps apart
+    std::vector<InCommon> common(count); // at k: nodes and sides that copies share if they are k steps apart
     std::optional<Skin> skin;
     std::vector<std::string> gaps;
     for (std::size_t k = 1; k < count; ++k) {
@@ -297,7 +297,7 @@ FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const Pattern
     skin.reset();
     FilledParts all = moved(mesh, moves[0]);
     sweep::SweptAssembly& whole = all.swept;
-    // By part, the nodes of the mesh, from which copies of order 1 compute their nodes on demand.
+    // For each part, the nodes of the first mesh. Copies of order 1 compute their nodes from these on demand.
     std::vector<std::shared_ptr<const std::vector<Vec3>>> nodes(parts);
     for (std::size_t p = 0; p < parts; ++p) {
         mesh::HexMesh& part = mesh.swept.parts[p].mesh;

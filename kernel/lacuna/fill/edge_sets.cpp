@@ -87,7 +87,7 @@ private:
     const io::Deck& deck_;
     NamedSides& found_;
     io::DeckBlock lines_{.shape = io::DeckShape::line2, .type = {}}; ///< line elements kept as text
-    std::unordered_map<Index, Index> point_; ///< by node of the deck: the point of the model
+    std::unordered_map<Index, Index> point_; ///< for each node of the deck on the rim, the point of the model
     std::unordered_map<io::DeckTag, std::pair<const io::DeckBlock*, std::size_t>> element_;
 };
 

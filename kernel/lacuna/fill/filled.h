@@ -26,15 +26,15 @@ struct FilledVolume {
     sweep::Swept swept;
     std::string material; ///< material of the volume
     std::string unit{};   ///< as `Volume::unit`
-    bool copied = false;  ///< made by moved(): in an assembly, its nodes are moved onto nodes of other
-                          ///< members from which they differ by rounding only
+    bool copied = false;  ///< whether moved() made the mesh: in an assembly, its nodes are then moved onto
+                          ///< nodes of other members from which they differ by rounding only
     std::vector<io::ColumnSet> columns{}; ///< made from node sets on the source of a path
 };
 
 /// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
 struct FilledTets {
     mesh::TetPart mesh;
-    std::vector<Index> number; ///< by node of `mesh`: its number in the whole mesh, from 0
+    std::vector<Index> number; ///< for each node of `mesh`, its number in the whole mesh, from 0
     std::size_t shared = 0;    ///< number of sides of its skin that it shares with meshes made before it
     std::string region;
     quality::Quality quality;        ///< measured when the mesh was proved
@@ -47,7 +47,8 @@ struct FilledTets {
 struct SplitInterface {
     std::string region;  ///< name of the cells
     std::string element; ///< their Abaqus name: "COH3D8"
-    /// By nodes of the whole mesh, in the order of their shape; the bottom is a side of the first region.
+    /// For each cell, its nodes in the whole mesh, in the order of the cell's shape. The bottom of a cell is
+    /// a side of the first region.
     std::vector<mesh::CellNodes> cells;
 };
 
@@ -75,8 +76,8 @@ struct FilledParts {
     std::string unit{};                   ///< as `Volume::unit`
     bool copied = false;                  ///< as in `FilledVolume`
     std::vector<io::ColumnSet> columns{}; ///< as in `FilledVolume`; `part` is the index in `swept.parts`
-    /// After `split_interface()`: for each node, a part that has it or a node at the same place, and its
-    /// number in that part. Otherwise empty.
+    /// After `split_interface()`: for each node, a part that contains the node, or a node at the same place,
+    /// and the number of this node in the part. Without a split, empty.
     std::vector<std::array<Index, 2>> owner{};
 };
 
@@ -170,19 +171,19 @@ struct InterfaceFaces {
 /// Split a mesh along cell sides that two parts share: duplicate the nodes, and insert a zero-thickness
 /// (cohesive) cell at each side.
 ///
-/// At each node, parts stay connected if they share a side that is not split. Each connected set of parts
-/// gets its own node: three regions that meet at split sides get three nodes. If the interface ends inside
-/// the mesh, all parts around its end stay connected, so nodes there are not duplicated. Existing nodes keep
-/// their numbers; duplicates are numbered after them.
+/// Nodes: at each node, two parts stay connected if they share a side that is not split. Each connected set
+/// of parts gets its own node: three regions that meet at split sides get three nodes. If the interface ends
+/// inside the mesh, all parts around its end stay connected, so nodes there are not duplicated. Existing
+/// nodes keep their numbers; duplicates are numbered after them. Duplicates on a periodic face are paired
+/// with nodes of the part at the image of that face.
 ///
-/// Nodes 1 to 4 of a cell lie on the part that was meshed first, and its stacking direction is from nodes 1-4
-/// to nodes 5-8. At order 2, middle nodes are duplicated in the same way. The cells then have 20 or 27 nodes:
-/// between each pair of opposite nodes there is a further node, which cells with the same pair share. Mixed
-/// elements have their multipliers at these nodes. Duplicates on a periodic face are paired with nodes of the
-/// part at the image of that face.
+/// Cells: nodes 1 to 4 of a cohesive cell lie on the part that was meshed first. The stacking direction of
+/// the cell is from nodes 1-4 to nodes 5-8. At order 2, middle nodes are duplicated in the same way, and the
+/// cells have 20 or 27 nodes: there is a further node between each pair of opposite nodes, which cells with
+/// the same pair share. Mixed elements have their multipliers at these further nodes.
 ///
-/// A mesh that is split at levels becomes one part between each two levels. Faces below level k are the group
-/// `level_k:target`, those above it `level_k:source`.
+/// Levels: a mesh that is split at levels becomes one part between each two levels. The cell sides on level k
+/// form two groups: those of the part below are `level_k:target`, those of the part above `level_k:source`.
 /// @throw InvalidInput "fill.interface_none"     no face is named, or no named face is shared by two parts.
 ///                     "fill.interface_element"  the element is not a zero-thickness one (COH3D8, GK3D8).
 ///                     "fill.interface_levels"   a level is not inside the mesh, or the mesh has several

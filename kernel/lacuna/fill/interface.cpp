@@ -20,9 +20,9 @@ constexpr const char* kNoCells = "NONE"; ///< `InterfaceFaces::element` of a spl
 struct PartSkin {
     std::string region;
     const std::vector<mesh::SkinPatch>* patches = nullptr;
-    std::vector<Index>* number = nullptr; ///< by node of the part: its number in the whole mesh
+    std::vector<Index>* number = nullptr; ///< for each node of the part, its number in the whole mesh
     std::vector<mesh::CellNodes> sides{}; ///< sides of the skin in the part's own numbers, seen from outside
-    std::vector<Index> patch{};           ///< by side: its patch
+    std::vector<Index> patch{};           ///< for each side, its patch
 };
 
 /// Number of corners of a side, of order 1 or 2.
@@ -150,10 +150,11 @@ private:
             "name one of the pairs of regions that share faces: faces = {}{}{}", "{ ", pairs.front(), " }"));
     }
 
-    /// Parts that stay connected at a node of a split face get a node of their own there.
+    /// At each node of a split face, give every set of parts that stay connected there its own node.
     void number_nodes()
     {
-        std::map<Index, std::vector<const SharedSide*>> at; // by node of a split face: shared sides there
+        // For each node of a split face, the shared sides at this node.
+        std::map<Index, std::vector<const SharedSide*>> at;
         for (const SharedSide& side : shared_)
             if (side.is_split)
                 for (const Index n : side.nodes_a) at[n];
@@ -241,7 +242,7 @@ private:
         for (const SharedSide& side : shared_) {
             if (!side.is_split) continue;
             const mesh::CellNodes own = whole(side.a, side.side_a), other = whole(side.b, side.side_b);
-            mesh::CellNodes across = own; // by corner of the side: the other part's node there
+            mesh::CellNodes across = own; // for each corner of the side, the other part's node there
             for (std::size_t k = 0; k < own.count; ++k)
                 across.node[k] = other.node[static_cast<std::size_t>(
                     std::ranges::find(side.nodes_b, side.nodes_a.node[k]) - side.nodes_b.begin())];
@@ -319,8 +320,9 @@ private:
 
     /// At order 2: for each pair of opposite nodes of a cell, the node between them.
     std::map<std::pair<Index, Index>, Index> between_{};
-    bool is_full_ = false;                      ///< cells of order 2 have centres
-    std::vector<std::vector<Index>> numbers_{}; ///< by swept part and its node: the number in the whole mesh
+    bool is_full_ = false; ///< cells of order 2 have centres
+    /// For each swept part and each of its nodes, the number of the node in the whole mesh.
+    std::vector<std::vector<Index>> numbers_{};
     FilledParts& mesh_;
     const InterfaceFaces& faces_;
     std::vector<PartSkin> parts_;
@@ -355,7 +357,7 @@ sweep::Swept layers_of(const sweep::Swept& whole, int from, int to)
     };
     if (from > 0) {
         end(mesh.source_patch, from, "source");
-        part.fidelity = {}; // the fidelity and the report of the whole stay with its first part
+        part.fidelity = {}; // only the first part keeps the fidelity and the report of the whole mesh
         part.report.clear();
     }
     if (to < whole.mesh.layers) end(mesh.target_patch, to, "target");

@@ -40,7 +40,7 @@ std::unique_ptr<KeptMesh> keep(const sweep::Swept& swept, const std::string& nam
     return kept;
 }
 
-/// Move each node of a copy onto the node from which it differs by rounding only, if there is one.
+/// If a node of a copy differs from a node of another mesh by rounding only, move it onto that node.
 void settle(std::span<KeptMesh* const> meshes, const RunContext& context)
 {
     if (std::ranges::none_of(meshes, &KeptMesh::copied)) return;

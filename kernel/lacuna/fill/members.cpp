@@ -55,8 +55,8 @@ void for_each_names(Options& options, const Do& give)
         if (interval.of == surface::Interval::Of::wall) give("intervals", interval.walls);
 }
 
-/// Options for several volumes may name faces that only one of them has. Drop the faces that the member does
-/// not have.
+/// Drop the faces that a member does not have from its options: options for several volumes may name faces
+/// that only one of these volumes has.
 void keep_known_faces(sweep::AssemblyMember& member)
 {
     for_each_names(member.options, [&](const char*, surface::FaceNames& names) {
@@ -212,9 +212,9 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
     }
 }
 
-/// Run `what` on a volume of an assembly. If this fails and the volume may be left out, add the volume to
+/// Run `what` on a volume of an assembly. If `what` fails and the volume may be left out, add the volume to
 /// `left_out`.
-/// @return  whether it succeeded.
+/// @return  whether `what` succeeded.
 template <class Do>
 bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& region, const Member& member,
                      const Do& what)
@@ -261,7 +261,7 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
 /// The parts of an assembly, ready to be meshed.
 struct Prepared {
     std::vector<sweep::AssemblyMember> members;
-    std::vector<std::string> materials; ///< by member
+    std::vector<std::string> materials; ///< for each member, its material
     std::vector<Part*> parts;
     std::vector<sweep::LeftOut> left_out;
 };
@@ -313,8 +313,9 @@ bool can_sweep(const topology::OpenVolume& volume, const RunContext& context)
     }
 }
 
-/// How badly a member's sweep suits its neighbours, for comparisons. First: whether its walls have edges that
-/// layers cannot follow. Second: the number of faces that are an end of one volume and a wall of the other.
+/// How badly a member's sweep suits its neighbours; lower is better. First: whether the member's walls have
+/// edges that layers cannot follow. Second: the number of shared faces that are an end of one volume and a
+/// wall of the other.
 std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& split, std::size_t member,
                                                const RunContext& context)
 {
@@ -328,9 +329,9 @@ std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& sp
     return {!can_sweep(split.volumes[member], context), static_cast<std::size_t>(unlike)};
 }
 
-/// If neighbours divide each other's faces and the user named no ends of a volume, choose the sweep that
-/// suits its neighbours best. A board on standoffs is swept from the side on which they stand, a square pin
-/// from plate to plate.
+/// For each volume whose ends the user did not name and whose faces are divided by neighbours, choose the
+/// sweep that suits its neighbours best. Examples: a board on standoffs is swept from the side on which the
+/// standoffs are; a square pin between two plates is swept from plate to plate.
 void choose_sweeps(Prepared& ready, const RunContext& context)
 {
     const auto may_choose = [](const Part* part) { return part->volume.others && !part->volume.no_roles; };
@@ -553,8 +554,8 @@ void report_left_out(const Volume& volume, std::vector<std::string>& report)
 void partitions(const topology::OpenVolume& sealed, const closure::TakePieces& take,
                 const RunContext& context)
 {
-    // A strip beside a cut would be filled with far smaller cells than the rest if it is thinner than this
-    // share of the cell size. A choice, not measured.
+    // If a strip beside a cut is thinner than this share of the cell size, its cells would be far smaller
+    // than all others. Not measured.
     constexpr double kThin = 0.1;
     closure::partitions(
         sealed, [&](const topology::OpenVolume& piece) { return can_sweep(piece, context); },

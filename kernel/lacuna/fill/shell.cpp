@@ -15,7 +15,9 @@ namespace lacuna::fill {
 FilledShell quads(const topology::Model& model, const std::vector<FaceId>& faces,
                   const sweep::SweepOptions& options, const RunContext& context)
 {
-    if (faces.empty()) throw InvalidInput("fill.no_faces", "quads: there are no faces to mesh");
+    if (faces.empty())
+        throw InvalidInput(
+            Message("fill.no_faces", "quads: there are no faces to mesh").remedy("name one or more faces"));
     const topology::Model own = topology::extract(model, faces);
     sweep::ShellQuads mesh = sweep::shell_quads(own, options, context);
     FilledShell shell{{}, mesh.min_scaled_jacobian, mesh.mean_scaled_jacobian, mesh.area,

@@ -265,7 +265,7 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     sweep::SweepOptions options = request.options;
     options.layered = false;
     options.crew = nullptr;
-    // One size for all pieces: the default sizes of single pieces would not suit their neighbours. Ends that
+    // All pieces get the same size, because the default sizes of neighbouring pieces would differ. Ends that
     // were found for the whole volume are not those of the pieces, and may be small.
     if (!options.size) {
         topology::OpenVolume sized = volume.volume;
@@ -275,8 +275,9 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     }
     Volume sealed = sealed_whole(volume, context);
     PieceMesher mesher(sealed, why, options, static_cast<bool>(request.options.size), context);
-    // A volume of which less than this share can be swept is filled with tetrahedra alone. A choice: on the
-    // bodies of the tests, pieces of such volumes took up to a minute and gave a fifth of hexahedra at most.
+    // A volume of which less than this share can be swept is filled with tetrahedra alone. On the bodies of
+    // the tests, meshing such volumes in pieces took up to a minute, and at most a fifth of the volume became
+    // hexahedra.
     constexpr double kWorthMixing = 0.5;
     // Partitions with pieces that have no ends, by the share of the volume in the pieces with ends.
     std::multimap<double, std::vector<closure::StepPiece>, std::greater<>> partial;

@@ -292,7 +292,7 @@ private:
     std::vector<Segment> sides_; ///< the two end nodes of each side
     std::vector<State> states_;
     std::vector<std::size_t> on_skin_; ///< indices of the sides on the skin
-    std::vector<FaceId> face_, other_; ///< by side on the skin: the faces next to it
+    std::vector<FaceId> face_, other_; ///< for each side on the skin, the two faces next to it
     std::vector<Vec3> centres_;        ///< given centres of quads; NaN where none is given
     sweep::SkinCounts counts_;
     std::size_t straightened_ = 0;

@@ -184,8 +184,8 @@ private:
         return bodies_[body].faces[face.index()];
     }
 
-    /// Whether faces of two bodies are in contact. Closed skins that touch from opposite sides, as solids
-    /// side by side do, count only inside a third body.
+    /// Whether faces of two bodies are in contact. Two closed skins that touch from outside (solids side by
+    /// side) count as in contact only if they are inside a third body.
     [[nodiscard]] bool is_contact(const SharedFace& pair, bool same_side) const
     {
         const Body &a = bodies_[pair.a], &b = bodies_[pair.b];

@@ -85,9 +85,9 @@ double edge_sag(const topology::Model& model)
     return sag;
 }
 
-/// The skin of a source swept along a path, in which given walls replace the walls that the path makes in the
-/// same places.
-/// @throw NotClosed "closure.along_walls"  a given wall does not end where the path's walls end; names the
+/// The skin of a source swept along a path. Where a wall is given, it replaces the wall that the sweep would
+/// make there.
+/// @throw NotClosed "closure.along_walls"  a given wall does not end where the replaced wall ends; names the
 ///         place.
 closure::Closed with_given_walls(closure::Closed closed, const topology::Model& walls,
                                  const RunContext& context)
@@ -258,8 +258,8 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
     }
     report_progress(context, "closing");
     volume.told = true;
-    // A trial closing with void edges has neither measured nor logged its assumptions, so it is repeated
-    // here.
+    // With void edges, the closing was only tried: its assumptions were neither measured nor logged. So the
+    // volume is closed again here.
     if (volume.as_read && asks_nothing(asked) && volume.as_read->closure.void_edges.empty()) {
         volume.closure = std::move(volume.as_read->closure);
         volume.volume = std::move(volume.as_read->volume);

@@ -55,8 +55,8 @@ struct RoleRequest {
     std::optional<topology::Roles> roles;
     bool find_walls = false;                  ///< find the walls from the rim of the one named end
     std::optional<std::vector<FaceId>> faces; ///< without `roles`: the faces to use; not set: all faces
-    int reading = 0; ///< which of the possible voids to use, from 1; 0: there must be one. With `roles`, 1
-                     ///< accepts ambiguous geometry
+    int reading = 0; ///< number of the possible void to use, from 1; 0: there must be only one. With `roles`,
+                     ///< 1 accepts ambiguous geometry
     std::optional<topology::VolumeClass> override_class;
     bool full_turn = false;                 ///< the volume makes a full turn: all faces are walls
     std::optional<geometry::Plane> fill_to; ///< if set, only the part of the void behind this plane is kept
@@ -74,10 +74,11 @@ struct RoleRequest {
 /// Open a volume from named faces, or find the roles of its faces. A closed volume without ends to sweep
 /// between is an error only for the stages that need them: match(), cut() and a sweep without a fallback.
 /// @throw InvalidInput "lua.walls_without_ends"  walls are to be found and no end is named;
-///         "lua.class_of_found_roles" a class is given for faces whose roles were found; "closure.fill_to"
-///         the plane leaves several parts; "closure.along_roles" a path, and no source or a role other than
-///         source and walls; "closure.along_…" or "geometry.path_…" the source cannot be swept along the
-///         path. Also the errors of `topology::open_volume()`, `topology::find_walls()`,
+///         "lua.class_of_found_roles"  a class is given for faces whose roles were found;
+///         "closure.fill_to"  the plane leaves several parts;
+///         "closure.along_roles"  a path is given without a source, or with roles other than source and
+///         walls; "closure.along_…" or "geometry.path_…"  the source cannot be swept along the path;
+///         or the errors of `topology::open_volume()`, `topology::find_walls()`,
 ///         `closure::find_reading()`, `require_none_left_out()` and, with a plane, of cut().
 Volume open(const topology::Model& model, const RoleRequest& request = {}, const RunContext& context = {});
 
@@ -90,8 +91,8 @@ Volume override_class(Volume volume, topology::VolumeClass value);
 Volume match(Volume volume, const std::optional<matching::MatchOptions>& options = {},
              const RunContext& context = {});
 
-/// Match source and target where closing needs it, and seal the volume unless it is sealed already. A volume
-/// that was sealed to find its roles is sealed anew if options are given.
+/// Seal the volume, unless it is sealed already. If sealing needs a match and there is none, source and
+/// target are matched first. A volume that was sealed to find its roles is sealed anew if options are given.
 /// @throw InvalidInput "lua.sealed"  options are given and close() was called before. Or the errors of
 ///         `matching::match()` and `closure::close()`.
 Volume close(Volume volume, const std::optional<closure::CloseOptions>& options = {},

@@ -39,9 +39,10 @@ std::vector<std::uint32_t> quads_of_rim(const mesh::HexMesh& mesh)
     for (const Segment& segment : mesh.rim) {
         const auto at = std::lower_bound(sides.begin(), sides.end(), Side{segment, 0}, before);
         if (at == sides.end() || at->ends != segment)
-            throw InvalidInput("io.rim",
-                               "the edge from {} to {} of the boundary belongs to no quad of the source",
-                               numbered("node", segment[0] + 1), numbered("node", segment[1] + 1));
+            throw InvalidInput(
+                Message("io.rim", "the edge from {} to {} of the boundary belongs to no quad of the source",
+                        numbered("node", segment[0] + 1), numbered("node", segment[1] + 1))
+                    .remedy("give boundary edges of the source's quads"));
         quads.push_back(at->quad);
     }
     return quads;
@@ -70,8 +71,9 @@ void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& field
     std::set<std::string> names;
     for (const CellField& field : fields) {
         if (!field.make && field.values.size() != mesh.cell_count())
-            throw InvalidInput("io.field_size", "the cell field '{}' has {} values for {} cells", field.name,
-                               found(field.values.size()), needed(mesh.cell_count()));
+            throw InvalidInput(Message("io.field_size", "the cell field '{}' has {} values for {} cells",
+                                       field.name, found(field.values.size()), needed(mesh.cell_count()))
+                                   .remedy("give one value for each cell"));
         check_field_name(field.name, names);
     }
 }

@@ -227,8 +227,9 @@ void DeckBuilder::check_points(const std::string& path) const
     constexpr double kFarthest = 1e100; // largest coordinate: its cube is still a finite number
     for (std::size_t p = 0; p < deck_.points.size(); ++p) {
         if (deck_.points[p].cwiseAbs().maxCoeff() <= kFarthest) continue;
-        throw InvalidInput("io.unreadable", "cannot read {}: {} has a coordinate beyond 1e100", path,
-                           numbered("point", p + 1));
+        throw InvalidInput(Message("io.unreadable", "cannot read {}: {} has a coordinate beyond 1e100", path,
+                                   numbered("point", p + 1))
+                               .remedy("check the file, or export it again"));
     }
 }
 

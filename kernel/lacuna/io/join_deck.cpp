@@ -244,12 +244,12 @@ private:
             if (face == nullptr || matched == quads || !is_of_deck(*face)) continue;
             const std::size_t given = face->given_quads.size();
             throw InvalidInput(Message("io.not_conformal",
-                                       "on {}, only {} of the mesh's {} quads are faces of the deck's "
-                                       "elements, of which {} quads and {} triangles lie there",
+                                       "{}: only {} of the mesh's {} quads match the deck, whose "
+                                       "elements have {} quads and {} triangles there",
                                        entity_of(patch), found(matched), needed(quads), given,
                                        face->triangles.size() - std::min(2 * given, face->triangles.size()))
-                                   .remedy("sweep with the deck's mesh kept on this face; mesh:report lists "
-                                           "the kept meshes"));
+                                   .remedy("sweep with the deck's mesh kept on this face (mesh:report lists "
+                                           "the kept meshes)"));
         }
     }
 

@@ -595,8 +595,9 @@ DeckFile med_file(const View& view, const MeshFileOptions& options, const mesh::
     }
     if (image.no_library) tell_no_library();
     if (result.empty() || !image.error.empty())
-        throw BackendError("io.med_library", "the MED library cannot write the {}",
-                           image.error.empty() ? "file" : image.error);
+        throw BackendError(Message("io.med_library", "the MED library cannot write the {}",
+                                   image.error.empty() ? "file" : image.error)
+                               .remedy("check the installation of libmedC, or write another format"));
     DeckFile file;
     file.notes = std::move(content.notes);
     file.add(std::move(image.bytes));

@@ -39,9 +39,11 @@ DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& tex
         throw InvalidInput("io.number_taken", "{} = {}: numbers must be at least 1", option, found(first));
     const DeckTag last = first + static_cast<DeckTag>(count) - 1;
     if (last > std::numeric_limits<Index>::max())
-        throw InvalidInput("io.number_taken",
-                           "{} = {}: the last of {} would get the number {}, above the limit of {}", option,
-                           first, count, found(last), needed(std::numeric_limits<Index>::max()));
+        throw InvalidInput(Message("io.number_taken",
+                                   "{} = {}: the last of {} would get the number {}, above the limit of {}",
+                                   option, first, count, found(last),
+                                   needed(std::numeric_limits<Index>::max()))
+                               .remedy("give a smaller number"));
     for (const DeckTag tag : taken)
         if (tag >= first && tag <= last)
             throw InvalidInput(Message("io.number_taken", "{} = {}: the deck already has {}", option,

@@ -120,7 +120,8 @@ private:
             check_cancelled(context_);
         }
         if (cells == 0)
-            throw InvalidInput("io.no_such_element", "a polyMesh needs cells, but the mesh has none");
+            throw InvalidInput(Message("io.no_such_element", "a polyMesh needs cells, but the mesh has none")
+                                   .remedy("write another format"));
     }
 
     /// Drop points that no cell uses, because checkMesh would report them as an error.

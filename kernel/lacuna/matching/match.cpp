@@ -376,12 +376,11 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
         throw NotClosed(
             Message(
                 "matching.loop_counts",
-                "the source has {} {} and the target has {}; both ends of a sweep, {} and {}, need the same "
-                "number",
-                found(result.source_loops.size()), result.source_loops.size() == 1 ? "loop" : "loops",
-                found(result.target_loops.size()), entities_of(model, volume.faces(Role::source)),
+                "the source ({}) has {} {} and the target has {} ({}), but both ends need the same number",
+                entities_of(model, volume.faces(Role::source)), found(result.source_loops.size()),
+                result.source_loops.size() == 1 ? "loop" : "loops", found(result.target_loops.size()),
                 entities_of(model, volume.faces(Role::target)))
-                .remedy("if a body stands on an end, its top belongs to that end: name it, too"));
+                .remedy("if a body stands on an end, also name the body's top as part of that end"));
     }
     Problem problem = problem_of(volume, options, result, context);
     if (options.method == Method::nearest) {

@@ -181,15 +181,19 @@ private:
             }
             const std::size_t other = std::exchange(claimed[loop_[l]], l);
             if (other != kNoIndex) {
-                throw NotClosed("matching.nearest_failed",
-                                "method \"nearest\" cannot match {}: it and {} are both nearest to {}",
-                                source_loop(l), source_loop(other), target_loop(loop_[l]));
+                throw NotClosed(
+                    Message("matching.nearest_failed",
+                            "method \"nearest\" cannot match {0}: both {0} and {1} are nearest to {2}",
+                            source_loop(l), source_loop(other), target_loop(loop_[l]))
+                        .remedy("pair the loops with match{{ loops = … }}"));
             }
             if (source_.count(l) != target_.count(loop_[l])) {
-                throw NotClosed("matching.edge_counts",
-                                "method \"nearest\": {} has {} edges and {} has {}; it needs equal numbers",
-                                source_loop(l), found(source_.count(l)), target_loop(loop_[l]),
-                                found(target_.count(loop_[l])));
+                throw NotClosed(
+                    Message("matching.edge_counts",
+                            "{} has {} edges and {} has {}, but method \"nearest\" needs equal numbers",
+                            source_loop(l), found(source_.count(l)), target_loop(loop_[l]),
+                            found(target_.count(loop_[l])))
+                        .remedy("use method = \"aligned\""));
             }
         }
     }
@@ -284,10 +288,12 @@ private:
         std::vector<Way> found = ways(l, m);
         std::erase_if(found, [&](const Way& other) { return other.backward != backward_; });
         if (found.empty())
-            throw NotClosed("matching.nearest_failed",
-                            "method \"nearest\" cannot match {} ({}): no alignment with {} keeps its fixed "
-                            "vertex pairs",
-                            source_loop(l), vertices_of(l), target_loop(m));
+            throw NotClosed(
+                Message("matching.nearest_failed",
+                        "method \"nearest\" cannot match {} ({}): no alignment with {} keeps its fixed "
+                        "vertex pairs",
+                        source_loop(l), vertices_of(l), target_loop(m))
+                    .remedy("leave pairs out of match{{ vertices = … }}"));
         Way way = best_of(found);
         const auto partner = [&](std::size_t i) {
             return target_.first[m] + partner_place(i, n, way.shift, way.backward);
@@ -353,20 +359,22 @@ private:
                     nearest_to_source_[a] != nearest_to_source_[b])
                     continue;
                 throw NotClosed(
-                    "matching.nearest_failed",
-                    "method \"nearest\" cannot match {}: the nearest vertices do not keep the order "
-                    "along the loop ({} and {} are both nearest to {})",
-                    source_loop(l), entity_of(model_, source_.vertex[a]),
-                    entity_of(model_, source_.vertex[b]),
-                    entity_of(model_, target_.vertex[nearest_to_source_[a]]));
+                    Message("matching.nearest_failed",
+                            "method \"nearest\" cannot match {}: the nearest vertices do not keep the order "
+                            "along the loop ({} and {} are both nearest to {})",
+                            source_loop(l), entity_of(model_, source_.vertex[a]),
+                            entity_of(model_, source_.vertex[b]),
+                            entity_of(model_, target_.vertex[nearest_to_source_[a]]))
+                        .remedy("pair the vertices with match{{ vertices = … }}"));
             }
         }
     }
 
     [[noreturn]] void refuse_loop(std::size_t l, const char* why) const
     {
-        throw NotClosed("matching.nearest_failed", "method \"nearest\" cannot match {} ({}): {}",
-                        source_loop(l), vertices_of(l), why);
+        throw NotClosed(Message("matching.nearest_failed", "method \"nearest\" cannot match {} ({}): {}",
+                                source_loop(l), vertices_of(l), why)
+                            .remedy("pair the vertices with match{{ vertices = … }}"));
     }
 
     /// The source vertices of a loop, for messages.

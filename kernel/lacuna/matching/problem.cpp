@@ -95,8 +95,9 @@ VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops
     const auto vertices = loops | std::views::transform(&LoopShape::vertices) | std::views::join;
     const auto tag_of = [&](VertexId v) { return model[v].tag; };
     if (const auto found = std::ranges::find(vertices, tag, tag_of); found != vertices.end()) return *found;
-    throw InvalidInput("matching.unknown_vertex", "{} is not on the rim of the {}, whose vertices are {}",
-                       NamedEntity{"vertex", tag}, end, entities_of(model, vertices));
+    throw InvalidInput(
+        Message("matching.unknown_vertex", "{} is not on the rim of the {}", NamedEntity{"vertex", tag}, end)
+            .remedy("name one of its vertices: {}", entities_of(model, vertices)));
 }
 
 void read_options(Problem& problem)

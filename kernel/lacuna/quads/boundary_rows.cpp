@@ -16,8 +16,9 @@ namespace {
 
 using namespace paving;
 
-/// Largest deviation of the node at a row's end from the row's height, as a share of this height. Nodes are
-/// placed along curves, but heights are measured perpendicular to the side, so the two differ slightly.
+/// Largest accepted difference between the height of the node at a row's end and the row's height, as a share
+/// of the row's height. The two differ slightly even for a well-placed node, because nodes are spaced along
+/// curves, but heights are measured perpendicular to the side.
 constexpr double kOffHeight = 0.05;
 
 /// A loop to which rows are being added.
@@ -110,9 +111,8 @@ private:
         return partial_.is_fixed(node) ? node : foot_[index(node) - partial_.fixed];
     }
 
-    /// How the front turns at a position. At an untouched boundary node, the input states the turn. At a node
-    /// of a row, and at a boundary node where rows take up a part of the angle, the angle of the front
-    /// decides.
+    /// How the front turns at a position. At a boundary node whose angle no row has used, it is the given
+    /// turn. At any other node, it follows from the angle of the front.
     [[nodiscard]] RowTurn turn_at(const Front& front, std::size_t i) const
     {
         const Index node = front.nodes[i];
@@ -155,7 +155,7 @@ private:
         /// Nodes on which the rows end, the lowest row first: existing nodes of the adjacent side, or new
         /// nodes.
         std::vector<Index> nodes;
-        std::vector<double> lean; ///< for each row, offset of its end node along the run [length]
+        std::vector<double> lean; ///< for each row, how far its end node is offset along the run [length]
         /// Length from this end over which the rows of the adjacent side cross the rows of the run.
         double block = 0;
         bool own = false; ///< whether the rows end on a new side, which their end nodes form
@@ -193,8 +193,8 @@ private:
         return base;
     }
 
-    /// Find the nodes on which the rows end at one end of the run. These are existing nodes of the adjacent
-    /// side, or new nodes if the rows end on a side of their own.
+    /// Find the nodes on which the rows end at one end of the run: existing nodes of the adjacent side, or
+    /// new nodes if the rows end on a new side.
     bool make_end(const Front& front, const Run& run, const Base& base, int table, bool last, RunEnd& end)
     {
         const std::size_t n = front.nodes.size(), k = last ? base.nodes.size() - 1 : 0;
@@ -215,7 +215,7 @@ private:
         if (turn == RowTurn::outer && beyond >= 0) {
             const Vec2 line = (at - partial_.at(front.nodes[(place + (last ? 1 : n - 1)) % n])).normalized();
             // Minimum sine of the angle between this line and the run. If the sine is smaller, the new side
-            // is perpendicular to the run. A choice, not measured.
+            // is perpendicular to the run, because quads in a sharper corner would be poor. Not measured.
             constexpr double kUpright = 0.5;
             if (line.dot(normal) >= kUpright) way = line;
         }
@@ -254,7 +254,8 @@ private:
     /// block it is 1. Beyond the block it decreases so slowly that the nodes keep their order.
     static double share_of(const RunEnd& end, double distance, double length)
     {
-        // The share decreases to 0 over this multiple of the largest offset; a choice, not measured.
+        // The share decreases to 0 over this multiple of the largest offset. Above 1, nodes keep their order;
+        // the value was not measured.
         constexpr double kSlowly = 3;
         const double most = std::ranges::max(end.lean |
                                              std::views::transform([](double x) { return std::abs(x); }));
@@ -311,8 +312,9 @@ private:
         return true;
     }
 
-    /// Mark a boundary node at which rows end on a side of their own. At this node, the remaining angle
-    /// decides how the front turns.
+    /// Mark a boundary node at which rows end on a new side, formed by their end nodes (`RunEnd::own`). These
+    /// rows use part of the node's angle, so the angle that is left, instead of the given turn, decides how
+    /// the front turns there.
     void mark_cut(Index node)
     {
         if (partial_.is_fixed(node)) is_cut_[index(node)] = true;
@@ -340,8 +342,8 @@ private:
         const std::size_t rows = level.size() - 1, n = front.nodes.size();
         const std::size_t after = run.first + run.sides; // position of the last node
         const int before_table = front.table[(run.first + n - 1) % n], after_table = front.table[after % n];
-        // Keep the part of the front without rows. It leads from the last node of the run, or from the node
-        // where the rows end, around to the first node of the run.
+        // Keep the rest of the front. It leads from the last node of the run, or from the node of the
+        // adjacent side on which the last row ends, around to the first node of the run.
         std::size_t from = after, left = n - run.sides;
         if (end.own) {
             // The ends of these rows form a new side, along which the rows of the adjacent side continue.
@@ -383,7 +385,7 @@ private:
     PartialMesh partial_;
     std::vector<Cycle> given_;
     std::vector<RowTurn> turn_;
-    std::vector<bool> is_cut_; ///< for each boundary node, whether ends of rows take up a part of its angle
+    std::vector<bool> is_cut_; ///< for each boundary node, whether rows use part of its angle (`mark_cut()`)
     std::vector<Front> fronts_;
     std::vector<Index> foot_; ///< for each added node, the boundary node below it
     std::optional<RowsFinding> finding_;

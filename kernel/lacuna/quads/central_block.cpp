@@ -11,13 +11,12 @@ namespace lacuna::quads {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Angle between the line that joins two corners of the block and the first or last edge on the block's side
-/// between them. The block's corners are then 132°. Each of the two quads outside has 114° there, close to
-/// the 120° of three equal quads. A larger angle flattens the block's own corners.
+/// The sides of the block bulge outward: angle between a straight side and the first or last edge of the
+/// bulging side. The block's corners are then 132°. Each of the two quads outside a corner has 114° there,
+/// close to the 120° of three equal quads. A larger angle flattens the block's own corners.
 constexpr double kBulge = 21 * kPi / 180;
 /// Distances from the centre to the block's corners and to the middles of its sides, as shares of the
-/// distance to the boundary. With a half, the quads around the block have about the same size as the quads
-/// inside.
+/// distance to the boundary. With a share of 0.5, quads outside the block are about as large as quads inside.
 constexpr double kCornerReach = 0.5, kSideReach = 0.5;
 
 /// Smallest distance from the centre to a boundary node whose direction differs by less than 22.5° from
@@ -73,8 +72,8 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
 
     CentralBlock block{region, {}, {}};
     const auto first = static_cast<Index>(region.points.size());
-    // The sides of the block bulge. They follow arcs whose centres lie on the far side of the block's centre;
-    // each edge is a chord of such an arc.
+    // Each side of the block follows an arc that bulges outward; each edge is a chord of this arc. The centre
+    // of the arc lies beyond the block's centre, seen from the side.
     const double bulge = kBulge * sides / (sides - 1);
     const double radius = half * reach / std::sin(bulge);
     std::vector<Vec2> rim; // counter-clockwise

@@ -12,12 +12,13 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// A boundary point may keep its number of quads if this number differs from the point's angle divided by 90°
-/// by less than this. The value exceeds 0.5, so that either number is accepted if the angle is halfway
-/// between two numbers. Larger values leave more distorted corners.
+/// A boundary point may keep its number of quads if its angle, divided by 90°, differs from this number by
+/// less than `kFits`. The value exceeds 0.5, so that two numbers are accepted if the angle is about halfway
+/// between multiples of 90°. Larger values leave more distorted corners.
 constexpr double kFits = 0.65;
-/// The weight of size against shape: the loss of a quad whose area deviates by a factor e is kSizeLoss. The
-/// loss is quadratic in the logarithm of the factor. kFarOff is used as the logarithm for a folded quad.
+/// Weight of size against shape: the loss is kSizeLoss if the area of a quad deviates from its target by a
+/// factor e = 2.718. The loss is quadratic in the logarithm of the factor. For a folded quad, kFarOff is used
+/// as the logarithm.
 constexpr double kSizeLoss = 0.1, kFarOff = 10;
 
 } // namespace

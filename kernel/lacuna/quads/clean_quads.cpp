@@ -17,12 +17,12 @@ namespace cleaning {
 
 namespace {
 
-/// Limits of the search before a patch is given up.
+/// Limits of the search for a patch and its filling.
 struct SearchLimits {
     std::size_t growths;  ///< maximum number of irregular points to which a patch is grown
     std::size_t largest;  ///< maximum number of quads in a patch
     std::size_t fillings; ///< maximum number of fillings that are tried for each patch
-    int sweeps;           ///< smoothing sweeps over a filling before its second judgement
+    int sweeps;           ///< smoothing sweeps over a filling before its second test (`Trial::run()`)
     double hopeless; ///< a filling is rejected early if its loss exceeds this multiple of the allowed loss
 };
 /// Stages of the search. Small patches come first, because they are cheap and remove most irregular points.
@@ -127,8 +127,8 @@ bool Cleaner::pass(const RunContext& context)
         due_[index(p)] = 0;
         if (!improve(p)) continue;
         improved = true;
-        // The quads around these points have changed, so points that were tried without success are visited
-        // again.
+        // The patch has changed the quads near the points that the search has seen. So these points are
+        // visited again, even if they were tried without success.
         for (const Index q : grower_.seen_points()) due_[index(q)] = 1;
     }
     return improved;

@@ -12,12 +12,12 @@ namespace {
 /// fewer from 20,000 quads on, while the mean scaled Jacobian decreases by at most 0.0003. With 2.5 it
 /// decreases by 0.002. Measured on the named outlines, 30 of the held family and 60 generated ones.
 constexpr double kLossForgiven = 1.2;
-/// Lower bound of the share of a filling's loss that remains after the first smoothing sweeps: 99 % of 6,000
-/// fillings from six domains kept a larger share. A filling is rejected early if this share of its loss is
-/// above the limit.
+/// Share of a filling's loss that remains at least after the first smoothing sweeps: 99 % of 6,000 fillings
+/// from six domains kept a larger share. A filling is therefore rejected before smoothing if this share of
+/// its loss exceeds the limit.
 constexpr double kLeft = 0.6;
-/// Number of smoothing sweeps over a filling and its surroundings before the last judgement, and number of
-/// rounds in which the poor quads among them are improved.
+/// Number of smoothing sweeps over a filling and its surroundings before the last test, and number of rounds
+/// in which their poor quads are improved.
 constexpr int kSweeps = 6, kRepairs = 4;
 
 } // namespace

@@ -13,9 +13,9 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Maximum number of runs with an odd number of sides. A row of quads leads from each of these runs, and its
-/// quads have double width until they are smoothed. With a larger limit, more regions can be coarsened, but
-/// more rows are distorted.
+/// Maximum number of runs with an odd number of sides. From each of these runs a row of quads leads to
+/// another one, and the quads of this row have double width until they are smoothed. With a larger limit,
+/// more regions can be coarsened, but more rows are distorted.
 constexpr std::size_t kMostOdd = 8;
 
 void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
@@ -178,8 +178,9 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides
                      takes_all ? odd - own_of_longest : own_of_longest);
             continue;
         }
-        // All runs have even numbers of sides. The nodes that stay are therefore all at even or all at odd
-        // positions. If no node must stay, the first node stays, because symmetries often pass through it.
+        // All runs have even numbers of sides, so the nodes that must stay are all at even or all at odd
+        // positions. If no node must stay, the first node stays, because mirror axes often pass through the
+        // first node.
         for (std::size_t i = corners[l].front() % 2; i < loop.size(); i += 2)
             add_point(made, region.points[index(loop[i])], loop[i], loop[(i + 1) % loop.size()]);
     }

@@ -87,8 +87,8 @@ private:
         int row = 0;
     };
 
-    /// For each position along the ring, the node of a loop. If there are several nodes, the one farthest
-    /// into the region.
+    /// For each position along the ring, the node of a loop at this position. If there are several, the node
+    /// farthest inside the region.
     static std::vector<End> ends_of(const std::vector<Vec2>& points, const GridLoop& loop, int period,
                                     bool outer)
     {
@@ -137,8 +137,8 @@ private:
     int shift_ = 0;
 };
 
-/// The nearest integer. Values halfway between two integers are rounded down, even if they have rounding
-/// errors. Holes that are images of each other are thus all moved in the same direction.
+/// The nearest integer. Values halfway between two integers, up to rounding errors, are rounded down. Holes
+/// that are images of each other are thus all moved in the same direction.
 int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kCountSlack)); }
 
 void move(GridLoop& loop, int along, int across, int period)
@@ -159,8 +159,8 @@ struct FacePattern {
     TurnStyle style = TurnStyle::soft;
 };
 
-/// If quads fold, move each inner node to the mean of its neighbours a few times. The result is kept if it
-/// improves the worst quad. This is far faster than untangling in the smoother if rows overlap.
+/// If quads fold, move each inner node to the mean of its neighbours a few times. Keep the result if the
+/// worst quad has improved. Where rows overlap, this is far faster than the untangling in `smooth_plane()`.
 void spread_folds(PlanarQuads& mesh, std::size_t fixed)
 {
     constexpr int kSweeps = 20; // limit of sweeps; not measured
@@ -321,8 +321,8 @@ private:
         return true;
     }
 
-    /// Give the two loops of a ring the same number of sides along the ring: by steps of the outer loop, or
-    /// by rows that change their number of sides, as the pattern says.
+    /// Give the two loops of a ring the same number of sides along the ring. The pattern determines the
+    /// method: steps of the outer loop, or rows that change their number of sides.
     bool make_alike(PatternLoop& outer, PatternLoop& inner)
     {
         more_sides_ = along(outer) + along(inner);
@@ -448,8 +448,8 @@ public:
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
-    /// The meshes that were found. If the number of quads matters (the region has no holes, or has ends of
-    /// 135°), only meshes with the wanted number are returned, provided there are any.
+    /// The meshes that were found. The number of quads matters if the region has no holes, or has ends of
+    /// 135°. Then only meshes with about the requested number are returned, if there are any.
     std::vector<PlanarQuads> take()
     {
         std::vector<PlanarQuads> fit;
@@ -474,7 +474,8 @@ private:
     /// Try straight grid lines.
     void try_straight(TurnStyle style)
     {
-        // Maximum number of meshes of one style, once a mesh has nearly square quads; a choice, not measured.
+        // Maximum number of meshes of one style after a mesh with nearly square quads was found. It limits
+        // the time; not measured.
         constexpr std::size_t kMost = 3;
         const std::size_t before = made_.size();
         for (const int rows : rows_to_try(fitting_rows(style))) {
@@ -520,9 +521,9 @@ private:
 
     void keep(PlanarQuads mesh)
     {
-        // Minimum quality of the worst quad at which the search ends. Above kSquare, hard ends of 135° and
-        // rows that change their number of quads are not tried. Above kFine, and with the promised share of
-        // good rows, nothing else is tried. Discs never exceed kFine.
+        // Scaled Jacobians of the worst quad at which parts of the search end. Above kSquare, hard ends of
+        // 135° and rows that change their number of quads are not tried. Above kFine, if also the share of
+        // good rows is above kPromisedShare, nothing else is tried. Meshes of discs never exceed kFine.
         constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
         const bool decides = has_half_ends_ || region_.loops.size() == 1;

@@ -28,7 +28,8 @@ std::optional<Counts> counts_of_part(const PlanarRegion& part, std::span<const i
     return counts || !few ? counts : straight_counts(task, {kRingSegment, true, few});
 }
 
-/// A region with an additional node wherever a mirror axis crosses a side whose number is not given.
+/// A region with an additional node wherever a mirror axis crosses a side of a segment whose number of sides
+/// is not fixed.
 struct Halved {
     PlanarRegion region;
     std::vector<int> segment;   ///< segment of the side from each node to the next
@@ -147,7 +148,8 @@ Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorP
     const PartSegments segments = segments_of(task, halved, part);
     std::optional<Counts> counts = counts_of_part(part.region, segments.own, segments.all, few, task.context);
     const std::vector<SegmentPair> pairs = mirrored_segments(part.region, segments.own);
-    // If the part itself is symmetric, numbers from a grid are accepted only if they respect this symmetry.
+    // If the part itself is symmetric, numbers from a grid are accepted only if mirrored segments have equal
+    // numbers.
     if (counts && !few && part.has_centre && unlike(counts->sides, pairs) > 0) counts.reset();
     const std::vector<int> sides = counts ? counts->sides : rounded(segments.all, pairs);
     std::vector<int> sum(task.segments.size(), 0);
@@ -174,7 +176,7 @@ std::optional<Counts> mirror_counts(const CountTask& task)
     if (symmetries.empty()) return std::nullopt;
     SizeField asked = task.region.size;
     if (!asked) asked = [mean = mean_size(task)](const Vec2&) { return mean; };
-    // With few quads there is no room for grading, so the requested size is tried first.
+    // With few quads, the axes are too short for a graded size, so the requested size is tried first.
     std::vector<SizeField> sizes{paving::sizes_with_boundary(task.region).usual};
     if (quads_asked(task) < kFewForGrading) sizes.insert(sizes.begin(), asked);
     return cheapest_of_parts(halved.region, symmetries, sizes, [&](const MirrorPart& part) {
@@ -210,7 +212,7 @@ double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunCo
     if (counts) {
         for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = counts->sides[of_axis[a]];
     }
-    // Without a grid, quads only require an even total number of sides.
+    // No grid fills the part, so the paver does. Quads then only require an even total number of sides.
     if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0) ++*std::ranges::max_element(sides);
     divide_axes(part, sides, size);
     return counts ? counts->cost : kInfinity;

@@ -37,7 +37,7 @@ public:
     std::vector<Symmetry> run() const
     {
         std::vector<Symmetry> found = all();
-        // Maximum number of rotations. More rotations would not improve the mesh.
+        // Maximum number of rotations, which limits the time. More rotations would not improve the mesh.
         constexpr std::size_t kMostTurns = 64;
         const auto turns = 1 + static_cast<std::size_t>(std::ranges::count_if(
                                    found, [](const Symmetry& s) { return !s.map.mirrors; }));

@@ -13,10 +13,12 @@
 namespace lacuna::quads {
 namespace {
 
-/// A turn is soft if it differs from the boundary's own turn by more than this [right angles]. At an end, one
-/// quad takes the whole angle, and the limit is halfway to a side: 135°, a sine of 0.7. Three quads share the
-/// angle of a corner, and four that of a reversal. There each quad may have about 0.8 right angles, the limit
-/// of `least_irregular()`. Higher limits give fewer irregular nodes and worse quads at the boundary.
+/// A turn is soft if it differs from the boundary's own turn by more than this [right angles].
+/// - At an end, one quad takes the whole angle. The limit is halfway to a side: 135°, a sine of 0.7.
+/// - Three quads share the angle of a corner, and four that of a reversal. Each of them may have about 0.8
+///   right angles, the limit of `least_irregular()`.
+///
+/// Higher limits give fewer irregular nodes and worse quads at the boundary.
 constexpr double kSoftEnd = 0.5 + 1e-9, kSoftHalf = 0.49, kSoftCorner = 0.65 / 3;
 
 double square(double x) { return x * x; }
@@ -60,8 +62,8 @@ LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loo
     return angles;
 }
 
-/// Whether a turn is soft: it differs too much from the boundary's own turn, so the grid makes it some rows
-/// further inside.
+/// Whether a turn is soft: it differs so much from the boundary's own turn that the grid turns behind some
+/// rows of quads.
 bool is_soft(double own, int turn, TurnStyle style)
 {
     const double limit = turn < 0                        ? kSoftCorner * (2 - turn)
@@ -71,7 +73,7 @@ bool is_soft(double own, int turn, TurnStyle style)
 }
 
 /// Cost of a soft turn for `TurnStyle::few_soft`: the deviation of angles that is accepted to avoid an
-/// irregular node. A side perpendicular to its heading costs 1. A choice, not measured.
+/// irregular node. For comparison, a side perpendicular to its heading costs 1. Not measured.
 constexpr double kSoftTurn = 0.5;
 
 /// Finds the headings with the least cost, for a given heading of the first side.

@@ -110,11 +110,11 @@ private:
 
 int RingWidths::steps(double height) const
 {
-    // With the same number of rows everywhere, the rows have the requested size if the ratio of the ring's
-    // widths is smaller than that of the accepted sizes.
+    // With the same number of rows everywhere, all row heights are accepted if the ratio of the ring's widths
+    // is smaller than the ratio of the accepted limits.
     if (!(least > 0) || most < kLongestOfSize / kShortestOfSize * least) return 0;
-    // Half the difference that would make all rows equally high. The rows beside the steps are then neither
-    // too high nor too low.
+    // Take half the difference that would make all rows equally high. Near the steps, where the width of the
+    // ring is in between, the rows are then neither too high nor too low.
     return static_cast<int>(std::lround((most - least) / (2 * height)));
 }
 

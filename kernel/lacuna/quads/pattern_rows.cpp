@@ -7,7 +7,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// Renumber the loop so that it starts at another of its nodes.
+/// Make another node the first node of the loop.
 void start_at(PatternLoop& loop, std::size_t first)
 {
     const auto rotate = [by = static_cast<std::ptrdiff_t>(first)](auto&... lists) {

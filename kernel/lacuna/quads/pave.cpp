@@ -78,9 +78,10 @@ void check(const PlanarRegion& region)
     if (const auto crossing = geometry::find_crossing(region.points, region.loops)) {
         const auto node = index(region.loops[crossing->loop_a][crossing->segment_a]);
         const auto loop = [](std::size_t l) { return NamedEntity{"loop", static_cast<long long>(l) + 1}; };
-        throw InvalidInput("surface.pave_loops", "{} and {} of the region cross or touch near {}",
-                           loop(crossing->loop_a), loop(crossing->loop_b),
-                           position_text(region.points[node]));
+        throw InvalidInput(Message("surface.pave_loops", "{} and {} of the region cross or touch near {}",
+                                   loop(crossing->loop_a), loop(crossing->loop_b),
+                                   position_text(region.points[node]))
+                               .remedy("separate them there, or use a smaller size"));
     }
     const std::vector<Vec2> outline = region_within(region.points, {region.loops[0]}).region.points;
     for (std::size_t l = 0; l < region.loops.size(); ++l) {

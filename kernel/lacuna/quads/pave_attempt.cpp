@@ -14,9 +14,9 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Number of rows to pave along a loop. The rows along a round outer loop lead to four nodes of three quads.
-/// With one row for about sixty nodes, these four nodes are the corners of a square that has as many nodes as
-/// the loop. Around a hole, each further row only adds stretched quads.
+/// Number of rows to pave along a loop. Inside the rows along a round outer loop, a square remains with a
+/// node of three quads at each corner. With one row for about sixty nodes of the loop, the square has as many
+/// boundary nodes as the loop. Around a hole, each further row only adds stretched quads.
 int rows_for(const PartialMesh& partial, const Cycle& loop, bool outer)
 {
     if (!needs_row(partial, loop)) return 0;

@@ -140,17 +140,18 @@ bool reaches(const Limits& limits, const Attempt& attempt, const PlanarRegion& r
            quality.size_share() > limits.of_size;
 }
 
-/// Whether a grid is so good that no further attempt is needed. Other meshes have more irregular nodes.
+/// Whether a grid is so good that no further attempt is needed. Meshes that are no grid would have more
+/// irregular nodes.
 bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_size)
 {
-    // The worst quad may still get worse in a sweep without being folded. Nearly all quads are square and
-    // have the requested size. Lower bounds would save time and accept worse grids.
+    // With these bounds, the worst quad may still get worse in a sweep without being folded, and nearly all
+    // quads are square and have the requested size. Lower bounds would save time and accept worse grids.
     return reaches({0.72, 0.92, of_size}, attempt, region);
 }
 
 /// Whether the images of a part are so good that no further attempt is needed. Because it is symmetric, the
 /// mesh may have a few more irregular nodes than others.
-/// @param asked  the size that gives the number of quads.
+/// @param asked  the size from which the requested number of quads follows.
 /// @param few    whether there are so few quads that the given sides determine their sizes.
 bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const SizeField& asked, bool few)
 {
@@ -353,8 +354,8 @@ bool AttemptChooser::try_part(const MirrorPart& part, bool few, std::vector<Atte
 
 bool AttemptChooser::try_blocks()
 {
-    // Ratio between the number of the block's quads along a side and the number that the size requires. If
-    // the block's side has as many quads as the boundary opposite to it, rows run around the block. Of the
+    // Number of quads along a side of the block, divided by the number that the size requires. If a side of
+    // the block has as many quads as the boundary opposite to this side, rows run around the block. Of the
     // values from 0.7 to 1.5, this was the best on flanges of 1,000 and 3,000 quads.
     constexpr double kFiner = 1.5;
     const std::vector<Symmetry> symmetries = outline_symmetries(region_);

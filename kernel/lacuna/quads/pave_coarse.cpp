@@ -62,7 +62,8 @@ PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunC
     }
     if (attempt.worst <= setting.flat)
         throw NotSweepable("surface.pave", "quads fold near {}", position_text(attempt.where));
-    // Patterns are not tried. They stretch many quads to avoid irregular nodes, which do little harm here.
+    // `fill_patterns()` is not tried: it distorts many quads to avoid irregular nodes, but in a mesh of many
+    // quads irregular nodes do little harm.
     auto [mesh, other] = pave(region, {.grids = false}, context);
     report = std::move(other);
     return std::move(mesh);

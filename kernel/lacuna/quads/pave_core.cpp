@@ -9,8 +9,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// The quality above which a part with `nodes` nodes is filled without a cut. A cut costs a few irregular
-/// nodes whatever the size of the part, whereas a poor patch makes all its quads poor.
+/// The quality above which a part with `nodes` nodes is filled without a cut. It rises with the size of the
+/// part: a cut adds a few irregular nodes whatever the size, but a poor patch makes all its quads poor.
 double good_patch(const CutWeights& weights, std::size_t nodes)
 {
     // Above kFrom nodes, the bound rises by kSlope with each doubling of the outline. With a steeper slope,

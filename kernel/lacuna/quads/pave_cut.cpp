@@ -62,8 +62,8 @@ private:
         // the cheapest of them is used.
         constexpr double kAway = 0.5;
         std::optional<Choice> best, near_miss;
-        // Lines are taken in order of `Line::cost`, to which `judge()` adds the cost of the number of edges.
-        // `Line::cost` is thus a lower bound of the total cost, and the search ends after few lines.
+        // Lines are taken in order of `Line::cost`. `judge()` adds the cost of the number of edges, so
+        // `Line::cost` is a lower bound of the total cost. The search therefore ends after few lines.
         const auto later = [](const Line& a, const Line& b) { return a.cost > b.cost; };
         std::ranges::make_heap(lines_, later);
         for (auto end = lines_.end(); end != lines_.begin();) {
@@ -195,7 +195,8 @@ private:
         return angle < kFullTurn ? angle : angle - kFullTurn;
     }
 
-    /// Weight of the angles at an end. It is lower at an inner node, because inner nodes move later.
+    /// Weight of the angles at an end of a line. It is lower at an inner node, because smoothing can move
+    /// this node.
     [[nodiscard]] double firmness(std::size_t i) const { return partial_.is_fixed(cycle_[i]) ? 1 : 0.6; }
 
     /// Cost of unequal numbers of edges on opposite sides, in both parts.

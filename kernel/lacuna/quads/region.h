@@ -29,7 +29,7 @@ void check(const PlanarRegion& region);
 struct PlanarQuads {
     std::vector<Vec2> points; ///< the region's points first, then points added inside
     std::vector<Quad> quads;  ///< counter-clockwise
-    std::string how{}; ///< method by which the mesh was made, for a note: "mapped", "paved"; may be empty
+    std::string how{}; ///< method that made the mesh, such as "mapped" or "paved", for a note; may be empty
 };
 
 /// A mesher that fills a planar region with quads alone and keeps its boundary nodes.

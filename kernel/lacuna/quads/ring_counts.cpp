@@ -15,8 +15,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// A narrower range for rings with further holes. Their rows bend around these holes, which uses up a part of
-/// the tolerance.
+/// A narrower range for rings with further holes. Rows bend around these holes, which changes the lengths of
+/// edges further.
 constexpr CountRange kRingWithHoles{1 / 1.55, 1.55};
 
 /// The index of the hole with the most nodes; of several such holes, the first. 0: there is no hole.

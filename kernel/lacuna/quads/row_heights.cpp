@@ -39,7 +39,8 @@ public:
 
     void run()
     {
-        // Maximum number of rounds; several are needed, because nodes make room for their neighbours.
+        // Maximum number of rounds. Several are needed, because a node may have room only after its
+        // neighbours have moved.
         constexpr int kRounds = 4;
         for (int round = 0; round < kRounds; ++round) {
             for (const Post& post : posts_) raise(post);
@@ -62,13 +63,13 @@ private:
 
     void raise(const Post& post)
     {
-        // Deviations up to this share of the height are not corrected. With larger values, fewer nodes are
-        // moved.
+        // Deviations of the height and along the boundary, up to these shares of the height, are not
+        // corrected. With larger values, fewer nodes are moved.
         constexpr double kHeight = 0.2, kLean = 0.2;
         const Vec2 start = at(post.top), arm = start - at(post.foot);
         const Vec2 along(post.inward.y(), -post.inward.x());
-        // If the height of a row is already within the promised range, its correction must not make
-        // neighbours worse.
+        // If the row's height is already within `kRowOffHeight` of the requested height, the correction must
+        // not make neighbours worse.
         const bool is_good = std::abs(arm.dot(post.inward) - post.height) <= kRowOffHeight * post.height;
         const double up = std::clamp(arm.dot(post.inward), (1 - kHeight) * post.height,
                                      (1 + kHeight) * post.height);

@@ -40,8 +40,8 @@ bool has_needles(std::span<const Vec2> points, std::span<const Quad> quads, std:
     return given < kInfinity && shortest < kOfShortest * kOfShortest * given;
 }
 
-/// If there are at least kMany points, they are swept in blocks of kBlock consecutive numbers, because in
-/// most meshes points with close numbers are close to each other. Not measured.
+/// At least kMany points are swept in blocks of kBlock consecutive numbers. In most meshes, points with close
+/// numbers are close to each other, so most neighbours of a point are in its block. Not measured.
 constexpr std::size_t kMany = 20'000, kBlock = 4096;
 
 class Smoother {

@@ -60,11 +60,14 @@ public:
     }
 
 private:
-    // kGood: minimum scaled Jacobian of neighbouring quads. kOffRight (the sine of an angle) and kOffHeight:
-    // the deviations that the search aims at; they are stricter than kRowOffRight and kRowOffHeight. kShape:
-    // weight of the quads' own energy. kGivenUp: the cost at which the weight of a row is half. kShorter and
-    // kLonger: the range of side lengths that the search aims at, relative to the requested size. Each was
-    // chosen from a few values: these give the most good rows on 70 outlines of the held family
+    // - kGood: minimum scaled Jacobian of neighbouring quads.
+    // - kOffRight (the sine of an angle) and kOffHeight: the deviations that the search aims at. They are
+    //   stricter than kRowOffRight and kRowOffHeight.
+    // - kShape: weight of the shape energy of the quads.
+    // - kGivenUp: the cost at which the weight of a row is half.
+    // - kShorter and kLonger: the range of side lengths that the search aims at, relative to the requested
+    //   size.
+    // Each was chosen from a few values: these give the most good rows on 70 outlines of the held family
     // (benchmarks/pave/) without worse quads between sharp corners.
     static constexpr double kGood = 0.7;
     static constexpr double kOffRight = 0.3, kOffHeight = 0.24, kShape = 0.002, kGivenUp = 0.5;
@@ -316,8 +319,8 @@ private:
     double floor_ = kGood;
 };
 
-/// Value of a mesh for comparison. The part of a share that exceeds the promised share counts a quarter, so
-/// that it does not outweigh poor quads.
+/// Value of a mesh for comparison, see `square_rows()`. The part of a share above `kPromisedShare` counts
+/// only a quarter, so that it does not outweigh poor quads.
 double worth_of(const PlaneQuality& quality)
 {
     constexpr double kBeyond = 0.25;

@@ -33,8 +33,8 @@ std::vector<std::size_t> sides_of_patch(const CountTask& task)
     return sides;
 }
 
-/// For each grid, its wanted foot: the number of its edges along the side that starts at its corner. Side i
-/// has foot[i] + foot[i + 2] edges.
+/// For each grid, its wanted foot, see `spoke_feet()`: the number of the grid's edges along the side that
+/// starts at the grid's corner. Side i has foot[i] + foot[i + 2] edges.
 std::vector<double> wanted_feet(const CountTask& task, const std::vector<std::size_t>& sides)
 {
     const std::size_t n = sides.size();

@@ -147,8 +147,8 @@ void centre_holes(const CountTask& task, std::vector<CountedLoop>& loops, const 
     }
 }
 
-/// Loops that close in the grid, for one number of rows in front of soft turns and one factor on the wanted
-/// numbers of sides.
+/// Loops that close in the grid, for one number of rows at soft turns and one factor on the wanted numbers of
+/// sides.
 struct ClosedLoops {
     std::vector<CountedLoop> loops;
     std::vector<LoopGrid> grids; ///< grids of the loops that have one
@@ -203,9 +203,11 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
     constexpr double kQuads = 0.25, kRows = 1;
     // Cost of mirrored segments with unequal numbers; it nearly excludes them. Not measured.
     constexpr double kUnlike = 10;
-    // kOff: cost if the number of quads is outside the promised range, or if holes have no room in the grid.
-    // kNearAsked: the search ends at this relative deviation from the requested number of quads. kMany: from
-    // this number of requested quads on, the room for holes in a whole region is not checked. Not measured.
+    // Not measured:
+    // - kOff: cost if the number of quads differs too much from the requested one, or if holes have no room
+    //   in the grid;
+    // - kNearAsked: the search ends at this relative deviation from the requested number of quads;
+    // - kMany: from this number of requested quads on, the room for holes in a whole region is not checked.
     constexpr double kOff = 2, kNearAsked = 0.1, kMany = 2000;
     // Factors on the wanted sides; not measured.
     constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5};
@@ -245,8 +247,8 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             counts.cost += kQuads * (quads - asked) * (quads - asked) / asked + of_part;
             const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
             if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOff;
-            // Check that the grid has room for the holes. If it has few lines it may not have room; if it has
-            // many lines the check is slow.
+            // Check that the grid has room for the holes. A grid with few lines may not have room. With many
+            // lines the check is slow and not needed.
             const bool looks = options.is_part ? options.few : asked < kMany;
             const bool has_place = !looks || (has_grids && have_place(closed->grids));
             if (!has_place) counts.cost += kOff;
@@ -324,7 +326,8 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
 
 std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
 {
-    // The cost of solutions with soft ends is divided by this, which was chosen like kQuads.
+    // The cost of solutions with soft turns at ends of 135° is divided by this number, which was chosen like
+    // kQuads.
     constexpr double kSoft = 2;
     std::vector<Counts> all = counts_looked_at(task, options, TurnStyle::soft);
     const auto add = [&](TurnStyle style) {

@@ -24,8 +24,8 @@ LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b, const Lan
     }
 }
 
-/// Edge vectors of the cells: along[d][e] runs in direction d; e encodes its ends in the other two
-/// directions, the lower direction fastest: U(v, w) at v + 2w, V(u, w) at u + 2w, W(u, v) at u + 2v.
+/// Edge vectors of the cells. along[d][e] runs in direction d; e is the position in the other two directions
+/// as in `kEdgeNodes`: U(v, w) at v + 2w, V(u, w) at u + 2w, W(u, v) at u + 2v.
 template <int N>
 struct Edges {
     alignas(64) double along[3][4][3][N];
@@ -135,12 +135,15 @@ LACUNA_INLINE void find_volume(const Edges<N>& edges, const Turns<N>& turns, Cel
 
 /// Store an inexpensive lower bound of each cell's coefficients in `smallest`.
 ///
-/// Let d = det(edge, change, change) for each edge of the cell. The coefficient at the middle of an edge is
-/// the mean of the two at its ends minus d / 2. The coefficient at the middle of a side is the mean of the
-/// four at its corners minus a quarter of the sum of its four d. The coefficient at the centre is the mean of
-/// the eight at the corners minus an eighth of the sum of all twelve d. So no coefficient is below the
-/// smallest one at a corner minus 3/2 of the largest |d|, which is bounded by the product of the largest
-/// lengths. Cells of swept meshes change little from layer to layer, so the bound decides most of them.
+/// Let d = det(edge, change, change) for each edge of the cell, with the changes of the other two edge
+/// vectors along this edge. Coefficients of the Jacobian:
+/// - at the middle of an edge: the mean of the two at its ends, minus d / 2;
+/// - at the middle of a side: the mean of the four at its corners, minus a quarter of the sum of its four d;
+/// - at the centre: the mean of the eight at the corners, minus an eighth of the sum of all twelve d.
+///
+/// So no coefficient is below the smallest one at a corner minus 3/2 of the largest |d|. The largest |d| is
+/// bounded by the product of the largest lengths of edges and changes. Edges of swept cells change little
+/// across a cell, so the bound decides most of them.
 /// @return  whether the bounds of all cells are positive.
 template <int N>
 LACUNA_INLINE bool find_bound(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)

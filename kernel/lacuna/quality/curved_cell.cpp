@@ -18,7 +18,7 @@ constexpr std::size_t kAll = kSide * kSide * kSide; ///< coefficients; (a, b, c)
 using Bezier = std::array<double, kAll>;
 
 /// A cell counts as straight if its middle nodes deviate from linear interpolation by at most this, relative
-/// to the size of the cell. It is above rounding, with a margin.
+/// to the size of the cell. The value is well above rounding errors.
 constexpr double kStraight = 1e-13;
 
 /// Position of each node of a hex27 in the grid of 3³ points, a + 3 b + 9 c.
@@ -303,9 +303,9 @@ std::array<Vec3, 13> deviations(std::span<const Vec3> nodes)
 }
 
 /// The map of a wedge, pyramid or tetrahedron of order 2 at a point of the unit cube, relative to corner 0.
-/// It is linear in the corners. Each edge adds its deviation times 4 a b, where a and b are the shape
-/// functions of its ends in a triangle, a square or along the height. The node at the centre of the base adds
-/// its deviation with such a weight, too.
+/// The map of the corners alone has order 1. Each edge adds its deviation times 4 a b, where a and b are the
+/// shape functions of its two ends in the triangle, in the square or along the height. The node at the centre
+/// of the base, if any, adds its deviation with a weight of the same kind.
 Vec3 collapsed_place(CellKind kind, std::span<const Vec3> nodes, const std::array<Vec3, 13>& deviation,
                      const std::array<double, 3>& at)
 {

@@ -54,7 +54,7 @@ void put(A& with, Own& quality)
     with(quality.histogram), with(quality.volume), with(quality.worst), with(quality.least_by_kind);
 }
 
-/// The results of all slabs in order, where each process contributes its own slabs.
+/// The results of all slabs, in their order. Each process of the team contributes the slabs that it measured.
 template <class Value, class Read>
 std::vector<Value> gathered(const Team* team, Writer own, std::size_t count, const Read& read)
 {
@@ -126,7 +126,7 @@ public:
         std::size_t shares = 1; // parts of the cubes, processed one after the other
         for (std::size_t share = 0; share < shares; ++share) {
             if (!gather(share, shares)) {
-                shares *= 2; // start again with less at a time
+                shares *= 2; // too many nodes: start again with smaller parts
                 share = static_cast<std::size_t>(-1);
                 continue;
             }
@@ -267,8 +267,8 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
     const auto take = [&](const std::optional<std::array<Index, 2>>& pair) {
         if (pair && (!least || *pair < *least)) least = pair;
     };
-    // Search each slab together with the next one. The search of the previous slab covered this one's lower
-    // side.
+    // Search each slab together with the next one. Pairs of nodes of this slab and the previous one were
+    // found in the search of the previous slab.
     std::vector<Vec3> nodes;
     for (std::size_t s = begin; s < end && (s == 0 || s + 1 < slabs.size()); ++s) {
         check_cancelled(context);

@@ -52,8 +52,8 @@ void count_bad(Partial& partial, const Values& values, const Signs& signs, int f
     }
 }
 
-/// Add the cells of a batch; `first` is the number of its first cell. Tests that most cells pass are made for
-/// the whole batch before single cells are tested.
+/// Add the cells of a batch; `first` is the number of its first cell. The whole batch is tested first. Single
+/// cells are tested only if some cell of the batch fails.
 /// @param hexes  whether all cells of the batch are hexahedra
 template <class Cells>
 void add_batch(Partial& partial, const Cells& cells, const Values& values, const Signs& signs,

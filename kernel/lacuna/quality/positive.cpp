@@ -47,8 +47,9 @@ LACUNA_INLINE bool all_positive(const Part& part)
     return least_of(least) > 0;
 }
 
-/// The direction to bisect, among the directions with bisections left: the one whose middle coefficients
-/// contain the smallest value, because a bisection raises it. -1 if no bisection is left.
+/// The direction to bisect, among the directions with bisections left: the direction whose middle
+/// coefficients contain the smallest value, because a bisection along it raises this value. -1 if no
+/// bisection is left.
 LACUNA_INLINE int best_cut(const Part& part, const CutsLeft& cuts_left)
 {
     const Row* row = part.row;
@@ -108,9 +109,9 @@ LACUNA_INLINE double split_along(const Part& whole, Part& low, Part& high)
 
 bool positive_half(const Part& part, const CutsLeft& cuts_left);
 
-/// Depth-first bisection along the most effective direction. By the convex hull property, coefficients only
-/// rise, so this proves every part that eight-fold subdivision to the same depth proves. One half is bisected
-/// by recursion, the other in the loop.
+/// Depth-first bisection, each time along the most effective direction. A bisection never lowers the smallest
+/// coefficient (convex hull property). So this proves every part that a subdivision into eight parts, to the
+/// same depth, would prove. One half is bisected by recursion, the other in the loop.
 /// @pre  `given` is positive at its corners, and finite
 LACUNA_INLINE bool positive_parts(const Part& given, CutsLeft cuts_left)
 {

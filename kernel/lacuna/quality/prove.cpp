@@ -14,9 +14,9 @@
 #include <unordered_set>
 #include <utility>
 
-// Swept cells need no search for common sides: each side of the mesh is a source quad on a level, or a side
-// of a source quad times a layer. So the mesh is conforming and its skin closed if and only if the source
-// quads are conforming and the rim lists all their boundary sides.
+// Swept cells need no search for common sides: each side of a cell is a source quad on a level, or a side of
+// a source quad times a layer. So the mesh is conforming and its skin closed if and only if the source quads
+// are conforming and the rim lists all boundary sides of the source quads.
 
 namespace lacuna::quality {
 namespace {
@@ -118,7 +118,7 @@ Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
 {
     const std::size_t nodes = index(mesh.nodes_per_layer);
     std::vector<Index> valence(nodes, 0);
-    std::vector<Index> first(nodes, -1); // a side that starts at the node; one on the rim if there is one
+    std::vector<Index> first(nodes, -1); // a side that starts at the node; on the rim, if possible
     for (std::size_t side = 0; side < opposite.size(); ++side) {
         if (opposite[side] == mesh::kNoSide) continue;
         const std::size_t node = index(mesh.quads[side / 4][side % 4]);

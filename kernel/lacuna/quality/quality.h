@@ -21,9 +21,10 @@ double scaled_jacobian(std::span<const Vec3, 8> corners);
 
 /// True if the Jacobian of the trilinear map is positive in the whole cell.
 ///
-/// Algorithm: Bézier coefficients of the Jacobian (Johnen, Weill and Remacle 2017). If all 27 are positive,
-/// the cell is valid; if one at a corner is not positive, it is invalid. Otherwise the cell is subdivided. If
-/// `max_depth` subdivisions do not decide, it counts as invalid.
+/// Algorithm: Bézier coefficients of the Jacobian (Johnen, Weill and Remacle 2017). If all 27 coefficients
+/// are positive, the cell is valid. If the coefficient at a corner is not positive, the cell is invalid.
+/// Otherwise the cell is subdivided, at most `max_depth` times. If this does not decide, the cell counts as
+/// invalid.
 bool certified_positive(std::span<const Vec3, 8> corners, int max_depth = 6);
 
 /// Verdict's scaled Jacobian of a wedge (nodes as in `mesh::Wedge`), times 2/√3. It is 1 for a right prism on
@@ -33,6 +34,17 @@ double wedge_scaled_jacobian(std::span<const Vec3, 6> corners);
 /// Whether the Jacobian of a wedge is positive everywhere, decided as by `certified_positive()`. The Jacobian
 /// is linear over the triangle and quadratic along the height; it has nine Bernstein coefficients.
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 6);
+
+/// The scaled Jacobian of a pyramid with the base 0-1-2-3 and the apex 4: the smallest value over the four
+/// corners of the base, at most 1. The value at a corner is the determinant of its three edges, divided by
+/// the product of their lengths and multiplied by √2. A pyramid whose edges are equally long has the scaled
+/// Jacobian 1. Verdict differs: it takes the scaled Jacobian of the tetrahedra at these corners, and 0 for a
+/// folded pyramid.
+double pyramid_scaled_jacobian(std::span<const Vec3, 5> corners);
+
+/// The scaled Jacobian of a tetrahedron, as in Verdict: √2 times the determinant of three edges at a corner,
+/// divided by the largest product of the lengths of the edges at a corner. It is 1 for a regular tetrahedron.
+double tet_scaled_jacobian(std::span<const Vec3, 4> corners);
 
 /// One of the worst cells of a mesh.
 struct WorstCell {
@@ -50,7 +62,7 @@ struct Quality {
     std::size_t inverted = 0;                ///< cells with a Jacobian <= 0 at a corner
     std::size_t uncertified = 0;             ///< cells whose Jacobian is not proved positive everywhere
     std::array<std::size_t, 20> histogram{}; ///< counts by scaled Jacobian, in twenty equal bins over [-1, 1]
-    std::vector<WorstCell> worst;            ///< at most ten, worst first, one for each column of a sweep
+    std::vector<WorstCell> worst;            ///< at most ten, worst first; at most one of each column
     double volume = 0;                       ///< sum over the cells [model length³]
     /// The scaled Jacobian of every cell, if requested from `measure()`; else null.
     std::shared_ptr<const std::vector<float>> of_cells;
@@ -69,8 +81,8 @@ enum class Keep {
 };
 
 /// Measure every cell of a mesh. Curved cells of order 2 are measured by `judge()`
-/// (`quality/second_order.h`), all others by their corners. Parallel; independent of the number of threads.
-/// O(cells).
+/// (`quality/second_order.h`), all others by their corners. Parallel; the result is the same for any number
+/// of threads. O(cells).
 /// @pre  every corner is a valid node number (`prove()` checks it).
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {}, Keep keep = Keep::sums);
 
@@ -94,7 +106,7 @@ enum class Fault {
     not_conformal,    ///< a side is used by more than two cells, or two cells do not match at it
     pinched,          ///< quads are connected at one node only
     unused_node,      ///< no cell uses a node
-    open_skin,        ///< an edge of the skin does not have two quads
+    open_skin,        ///< an edge of the skin does not belong to exactly two quads
     skin_differs,     ///< the given skin is not the skin of the cells
     not_finite,       ///< a coordinate is not finite
     coincident_nodes, ///< two nodes coincide
@@ -128,8 +140,12 @@ struct Proof {
     std::optional<Finding> finding; ///< the first fault found; none: the mesh is valid
 };
 
-/// Prove that a mesh is valid. It is conforming (each side is used once or twice), its skin is closed and
-/// equal to the patches, no nodes coincide or are unused, and every Jacobian is certified positive. O(cells).
+/// Prove that a mesh is valid. A valid mesh fulfils these conditions:
+/// - it is conforming: each side is used once or twice;
+/// - its skin is closed, and is the skin that its patches list;
+/// - no nodes coincide or are unused;
+/// - the Jacobian of every cell is certified positive, and no cell is below `min_scaled_jacobian`.
+/// @note  O(cells).
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
 
 /// Throw the finding of a proof, if there is one.

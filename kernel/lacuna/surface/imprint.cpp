@@ -107,10 +107,11 @@ private:
             const double shrunk = swept / edge_length(model, edge);
             if (shrunk <= kMostShrunk) continue;
             throw NotSweepable(
-                Message("surface.not_imprinted",
-                        "{} lies inside one end and cannot be imprinted on the other: there it "
-                        "would be {:.2g} times smaller, because that end is deep inside its rim",
-                        entity_of(model, image.target), found(shrunk))
+                Message(
+                    "surface.not_imprinted",
+                    "{} lies so far from the rim of one end that its imprint on the other would be {:.2g} "
+                    "times smaller",
+                    entity_of(model, image.target), found(shrunk))
                     .remedy("choose other faces as source and target"));
         }
     }

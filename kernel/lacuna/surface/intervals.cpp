@@ -201,11 +201,13 @@ private:
     {
         const auto& before = demands_.layers;
         if (before && (before->count != count || before->bias != bias)) {
-            throw NotSweepable("surface.sides_asked",
-                               "intervals: {} asks for {} layers and {} for {}{}; all columns need the same "
-                               "layers",
-                               before->name, found(before->count), name, found(count),
-                               count == before->count ? " with another bias" : "");
+            throw NotSweepable(
+                Message("surface.sides_asked",
+                        "intervals: {} asks for {} layers and {} for {}{}, but a sweep has the "
+                        "same layers everywhere",
+                        before->name, found(before->count), name, found(count),
+                        count == before->count ? " with another bias" : "")
+                    .remedy("leave one of them out"));
         }
         demands_.layers = {count, bias, name, of_sweep};
     }

@@ -73,10 +73,12 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
         }
     }
     if (touched.size() == 1) return *touched.begin();
-    throw NotSweepable("surface.belt_loops",
-                       "the walls {} touch {} loops of the {}; a sweep needs one ring of walls between one "
-                       "source loop and one target loop",
-                       entities_of(model, part), found(touched.size()), end);
+    throw NotSweepable(Message("surface.belt_loops",
+                               "the connected walls {} touch {} loops of the {} instead of one: each ring of "
+                               "walls must join one source loop to one target loop",
+                               entities_of(model, part), found(touched.size()), end)
+                           .remedy("name as walls only the faces of such rings, or add the other walls to "
+                                   "source or target"));
 }
 
 /// Keep the first side line, and all side lines that follow it in the same cyclic order around both rims.
@@ -289,9 +291,11 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
     const RimOf source = rims_of(volume, Role::source);
     const RimOf target = rims_of(volume, Role::target);
     if (source.rims.size() != target.rims.size()) {
-        throw NotSweepable("surface.loop_counts",
-                           "the source has {} loops and the target {}; a sweep needs equal numbers",
-                           found(source.rims.size()), found(target.rims.size()));
+        throw NotSweepable(
+            Message("surface.loop_counts",
+                    "the source has {} loops and the target {}, but a sweep needs equal numbers",
+                    found(source.rims.size()), found(target.rims.size()))
+                .remedy("check source and target, or cut the volume"));
     }
     const std::vector<matching::SideLine> lines = matching::side_lines(volume, context);
     std::vector<std::optional<LinkingSurface>> by_rim(source.rims.size());
@@ -301,10 +305,12 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
         check_ring(model, part);
         check_cancelled(context);
         if (by_rim[s]) {
-            throw NotSweepable("surface.belt_twice",
-                               "the walls ({}) and ({}) touch the same source loop but not each other; the "
-                               "walls of a loop must be connected",
-                               entities_of(model, part), entities_of(model, by_rim[s]->walls));
+            throw NotSweepable(
+                Message("surface.belt_twice",
+                        "the walls ({}) and ({}) touch the same source loop but not each other, "
+                        "although the walls of a loop must be connected",
+                        entities_of(model, part), entities_of(model, by_rim[s]->walls))
+                    .remedy("name the walls between them, or close the volume first"));
         }
         by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines, pairs, context);
         if (!is_idle_seam(volume, *by_rim[s], context)) continue;

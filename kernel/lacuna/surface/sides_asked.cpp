@@ -115,19 +115,20 @@ void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiec
             if (std::abs(own.kept[i] - piece.kept[i]) * piece.length > model.tolerance)
                 throw NotSweepable(
                     Message("surface.sides_asked",
-                            "intervals: {} asks for {} sides on {}, and {} asks for {} of other lengths",
-                            asked.name, asked.count, entity_of(model, edge), other.name, other.count)
-                        .remedy("leave one of them out"));
+                            "intervals: {} and {} ask for {} and {} sides on {} with different spacing",
+                            asked.name, other.name, asked.count, other.count, entity_of(model, edge))
+                        .remedy("leave one of them out, or give both the same bias"));
         }
         return;
     }
     if (const int rows = piece.rows(); rows > 0) {
         if (own.count <= rows)
-            throw NotSweepable("surface.sides_asked",
-                               "intervals: {} asks for {} sides on {}, where boundary layers end with {} "
-                               "sides: give {} or more",
-                               asked.name, found(asked.count), entity_of(model, edge), rows,
-                               needed(rows + 1));
+            throw NotSweepable(
+                Message("surface.sides_asked",
+                        "intervals: {} asks for {} sides on {}, but {} rows of boundary layers "
+                        "end there",
+                        asked.name, found(asked.count), entity_of(model, edge), rows)
+                    .remedy("give {} sides or more", needed(rows + 1)));
         if (asked.bias != 1)
             throw NotSweepable(
                 Message("surface.sides_asked",

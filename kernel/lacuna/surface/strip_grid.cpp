@@ -51,10 +51,11 @@ private:
         }
         if (most >= layers) {
             throw NotSweepable(
-                Message("surface.too_few_layers",
-                        "{} and any other edges around the walls lie at {} height(s) between source and "
-                        "target, each of which needs a layer boundary; layers = {} is too few",
-                        entity_of(model, net_.levels.front().edge), most, found(layers))
+                Message(
+                    "surface.too_few_layers",
+                    "the edges around the walls, such as {}, need {} boundaries of layers between source and "
+                    "target, but {} layers have fewer",
+                    entity_of(model, net_.levels.front().edge), most, found(layers))
                     .remedy("use layers = {} or more", needed(most + 1)));
         }
         for (std::size_t r = 0; r < count; ++r) {

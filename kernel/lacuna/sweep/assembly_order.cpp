@@ -85,10 +85,10 @@ std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember
             names += (names.empty() ? "" : ", ") + members[m].region;
     }
     throw NotSweepable(Message("assembly.round",
-                               "{}: each of these volumes lacks a face that another of them has, in a "
-                               "cycle, so none can be meshed first",
+                               "{}: each of these volumes lacks a face that another one has and must be "
+                               "meshed after that one, so none can be the first",
                                names)
-                           .remedy("add its missing face to one of them"));
+                           .remedy("give one of them its missing face"));
 }
 
 std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,

@@ -303,12 +303,13 @@ void EdgeCounts::check_rows() const
         const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
         const AssemblyMember &own = edges_.members()[end.member], &other = edges_.members()[edges_[e].member];
         throw NotSweepable(
-            Message("assembly.layers_rows",
-                    "the boundary layers of {} of {} need at least {} sides on {} of {}, because {} rows end "
-                    "there, but it has {}",
-                    entity_in(own, end.face), own.region, needed(taken + 1), entity_in(other, edges_[e].edge),
-                    other.region, taken, found(count))
-                .remedy("use a smaller 'count' of rows, or more layers or intervals there"));
+            Message(
+                "assembly.layers_rows",
+                "{} of {} has {} sides, but needs at least {} sides, because {} rows of boundary layers end "
+                "there, among them those of {} of {}",
+                entity_in(other, edges_[e].edge), other.region, found(count), needed(taken + 1), taken,
+                entity_in(own, end.face), own.region)
+                .remedy("use fewer rows, or more layers or intervals there"));
     }
 }
 

@@ -118,8 +118,9 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     // The rims of a tube coincide in its section.
     if (geometry::find_crossing(region.points, region.loops) ||
         !std::all_of(region.loops.begin() + 1, region.loops.end(), is_hole))
-        throw NotSweepable("sweep.mean_outline",
-                           "the source cannot be laid out between both outlines: their mean crosses itself");
+        throw NotSweepable(Message("sweep.mean_outline", "the source cannot be meshed in a plane, because "
+                                                         "the mean of both ends' outlines crosses itself")
+                               .remedy("cut the volume between source and target"));
     const quads::PlanarQuads filling = mesher(region, context);
 
     mesh::QuadMesh flat;

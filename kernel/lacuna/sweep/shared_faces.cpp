@@ -181,10 +181,10 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
         percent_a = 100 * std::min(there, 1.0);
         percent_b = 100 * std::min(back, 1.0);
         common.refusal = Message("assembly.part_of_face",
-                                 "{:.3g} % of {} of {} lies on {} of {}, and {:.3g} % of that face on the "
-                                 "first: faces can only be shared as a whole",
-                                 found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
-                             .remedy("split one along the other's rim");
+                                 "{:.3g} % of {} of {} and {:.3g} % of {} of {} coincide, but volumes can "
+                                 "only share whole faces",
+                                 found(percent_a), entity_a, a.region, found(percent_b), entity_b, b.region)
+                             .remedy("split one of these faces along the rim of the other");
     }
     if (refused) {
         const bool part = common.refusal &&

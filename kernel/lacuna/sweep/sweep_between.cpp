@@ -162,10 +162,9 @@ void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, 
     for (const FaceId face : volume.faces(Role::source)) {
         if (!volume.model[face].keeps_nodes || !has_cells_to_keep(volume.model[face], options.wedges))
             continue;
-        Message refusal(
-            "sweep.layers_given",
-            "{} has given quads, which are kept, so boundary layers cannot be placed along its rim",
-            entity_of(volume.model, face));
+        Message refusal("sweep.layers_given",
+                        "{} keeps its given quads, so boundary layers cannot be placed along its rim",
+                        entity_of(volume.model, face));
         if (!options.beside.own_mesh) throw NotSweepable(std::move(refusal));
         throw NotSweepable(
             std::move(refusal).remedy("remesh it with quads = \"paved\", or load with keep_mesh = false"));

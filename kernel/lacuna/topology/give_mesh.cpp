@@ -535,9 +535,10 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
         const NamedEntity edge = entity_of(model, given.edge);
         const std::size_t least = closed ? 4 : 2;
         if (given.nodes.size() < least)
-            throw InvalidInput("topology.nodes_off_edge",
-                               "there are too few nodes for {}: {}, but {} are needed", edge,
-                               found(given.nodes.size()), needed(least));
+            throw InvalidInput(Message("topology.nodes_off_edge",
+                                       "there are too few nodes for {}: {}, but {} are needed", edge,
+                                       found(given.nodes.size()), needed(least))
+                                   .remedy("use a smaller 'size', or give this edge 'intervals'"));
         std::vector<RimNode> nodes;
         double last = 0;
         for (std::size_t i = 0; i < given.nodes.size(); ++i) {
@@ -545,8 +546,9 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
             Nearest place{end ? at.back() : 0.0, 0};
             if (i > 0 && !end) place = nearest_on(model, old, at, given.nodes[i], last);
             if (i > 0 && place.at <= last)
-                throw InvalidInput("topology.nodes_off_edge",
-                                   "the nodes for {} are not in order along the edge", edge);
+                throw InvalidInput(Message("topology.nodes_off_edge",
+                                           "the nodes for {} are not in order along the edge", edge)
+                                       .remedy("use a smaller 'size', or give this edge other 'intervals'"));
             last = place.at;
             // The end nodes use the points of the vertices, and these points move to the nodes' positions.
             const Index point = i == 0 ? old.front()

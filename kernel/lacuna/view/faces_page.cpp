@@ -64,7 +64,8 @@ auto tags(const Model& model, const std::vector<FaceId>& faces)
     return faces | std::views::transform([&](FaceId face) { return model[face].tag; });
 }
 
-/// Write what distinguishes a face: its box, its neighbours, the cylinder or sphere that it lies on.
+/// Write the data by which a user recognises a face: its box, its neighbours, and the cylinder or sphere on
+/// which it lies.
 void add_facts(Json& json, const Model& model, const topology::FaceFacts& facts,
                const std::optional<topology::RoundShape>& round)
 {
@@ -152,7 +153,7 @@ void write_faces(const Model& model, const closure::ModelFacts& found,
     const Grid grid = grid_over(box);
     std::vector<Vec3> points = model.points;
     for (Vec3& point : points)
-        point = point.cwiseMax(box.min()).cwiseMin(box.max()); // unused ones may lie outside
+        point = point.cwiseMax(box.min()).cwiseMin(box.max()); // unused points may lie outside
 
     Json json;
     json.begin_object().member("kind", "faces");

@@ -12,8 +12,9 @@
 
 /// Pages for a browser, and pictures.
 ///
-/// A page is one HTML file that contains style, script and data, loads nothing, and forbids itself network
-/// access. It draws with WebGL 2. Texts of the input are embedded as data, never as markup.
+/// A page is one HTML file that contains its style, script and data. It loads nothing, and its content
+/// security policy forbids network access. It draws with WebGL 2. Texts of the input are embedded as data,
+/// never as markup.
 namespace lacuna::view {
 
 /// A swept mesh and the name of its region.
@@ -45,11 +46,11 @@ void write_page(std::span<const Region> regions, const io::OutputPath& path, con
 void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 
-/// Write a page of the faces of a model, with labels and descriptions. The user clicks faces to compose a
-/// recipe from source, target and walls, or from faces without roles. Edges used by one face are marked.
-/// Cavities and unsewn gaps found by closure::model_facts() are listed for selection.
+/// Write a page of the faces of a model, with labels and descriptions. The user composes a recipe by clicking
+/// source, target and walls, or faces whose roles are then found automatically. Edges that only one face uses
+/// are marked. The user can also select cavities and unsewn gaps, which `closure::model_facts()` finds.
 /// @throw  as `io::WholeFile`; Cancelled
-/// @note   Costs as much as closure::model_facts().
+/// @note   Takes about as long as `closure::model_facts()`.
 void write_page(const topology::Model& model, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 

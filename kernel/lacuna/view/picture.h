@@ -8,7 +8,8 @@
 
 namespace lacuna::view {
 
-/// Cells whose centre is behind the plane are shown completely, the others are hidden.
+/// Plane that cuts a picture of cells: a cell is shown whole if its centre is behind the plane (on the side
+/// opposite to the normal), and hidden otherwise.
 struct CutPlane {
     Vec3 point = Vec3::Zero();   ///< [model length]
     Vec3 normal = Vec3::UnitZ(); ///< points to the hidden side; any length except 0
@@ -48,13 +49,13 @@ void write_picture(std::span<const Region> regions, const io::OutputPath& path,
                    const PictureOptions& options = {}, const RunContext& context = {});
 
 /// Draw the solids of a deck, with straight sides. Two-dimensional elements define the groups of the skin.
-/// @throw InvalidInput  as for swept meshes; "view.no_solids"; "view.layers"  colours by layer or a choice of
-///                      layers, which a deck does not have.
+/// @throw InvalidInput  as for swept meshes; "view.no_solids"  the deck has no solids; "view.layers"  colours
+///                      by layer, or visible layers, are requested, but a deck has no layers.
 void write_picture(const io::Deck& deck, const io::OutputPath& path, const PictureOptions& options = {},
                    const RunContext& context = {});
 
-/// Draw faces in pale colours with their edges; edges used by one face are red. For faces that came with a
-/// mesh, the sides of its elements are drawn.
+/// Draw faces in pale colours with their edges; edges that only one face uses are red. On faces that came
+/// with a mesh, the sides of its elements are drawn.
 void write_picture(const topology::Model& model, const io::OutputPath& path,
                    const PictureOptions& options = {}, const RunContext& context = {});
 

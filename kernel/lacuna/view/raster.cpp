@@ -19,7 +19,7 @@ constexpr double kMargin = 0.05;    // free margin, relative to the picture
 constexpr double kLeastShare = 0.5; // least part of the height left for the object
 constexpr double kSideWidth = 1.1;  // width of lines between cells [pixels]
 constexpr double kSideDark = 0.75;  // darkness of the lines
-constexpr double kNearer = 0.0008;  // lines are moved to the viewer by this part of the depth range
+constexpr double kNearer = 0.0008;  // lines are moved towards the viewer by this share of the depth range
 constexpr double kFront = -2;       // depth in front of everything else
 constexpr Colour kLineColour{20, 28, 38};
 
@@ -112,7 +112,7 @@ std::vector<Placed> place_sides(const Scene& scene, const Projection& project)
         }
         for (std::size_t k = 0; k < side.count; ++k)
             girth += (own.corner[(k + 1) % side.count] - own.corner[k]).head<2>().norm();
-        // Lines fade out on quads a few pixels wide, and vanish below two pixels.
+        // On quads a few pixels wide, lines are fainter; on quads below two pixels, there are none.
         const double width = girth / static_cast<double>(side.count) / kSamples;
         own.line = kSideDark * std::clamp((width - 2) / 4, 0.0, 1.0);
     }

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kFaceOfQuadSide[] = {2, 1, 3, 0}; // face of the cell over side k of its source quad
 constexpr std::size_t kBottom = 4, kTop = 5;
 constexpr Colour kFreeEdge{214, 39, 40}, kEdge{40, 50, 60}, kVoidEdge{190, 110, 10};
-constexpr Colour kPlain{240, 240, 240}; // key of hatching alone
+constexpr Colour kPlain{240, 240, 240}; // colour of the legend's key for hatching
 
 /// The visible cells of a swept region.
 class ShownRegion {
@@ -159,9 +159,10 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
     for (const Region& region : regions) most = std::max(most, region.mesh->layers);
     const auto [from, to] = *options.layers;
     if (from < 1 || to < from || from > most)
-        throw InvalidInput("view.layers",
-                           "picture: option 'layers' is {} to {}, but the mesh has layers 1 to {}",
-                           found(from), found(to), needed(most));
+        throw InvalidInput(Message("view.layers",
+                                   "picture: option 'layers' is {} to {}, but the mesh has layers 1 to {}",
+                                   found(from), found(to), needed(most))
+                               .remedy("give first and last layer, in this order"));
 }
 
 /// For each part, the number of its region. Parts with the same name, such as copies, form one region.

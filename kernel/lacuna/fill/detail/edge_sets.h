@@ -14,16 +14,16 @@
 
 namespace lacuna::fill {
 
-/// For each edge on the rim of a source: the names of the deck sets that contain all of its sides. These are
-/// sets and regions of line elements, and surfaces made of shell edges. Edges are split where a set begins or
-/// ends.
+/// For each edge on the rim of a source: the names of the deck sets that contain all sides of the edge.
+/// Considered are sets and regions of line elements, and surfaces made of shell edges. Edges are split where
+/// a set begins or ends.
 /// @param scale  model coordinates / coordinates of the decks.
 std::map<EdgeId, std::vector<std::string>> edge_sets(topology::Model& model,
                                                      std::span<const std::shared_ptr<const io::Deck>> decks,
                                                      double scale);
 
-/// If a volume is swept from a source alone: the node sets of its decks that hold nodes of the source. Each
-/// becomes the set of all mesh nodes in the columns over these nodes. Otherwise empty.
+/// If a volume is swept from a source alone: the node sets of its decks that contain nodes of the source.
+/// Each set becomes the set of all mesh nodes in the columns over these nodes. Empty for any other volume.
 std::vector<io::ColumnSet> column_sets(const Volume& volume, const sweep::Swept& swept);
 
 } // namespace lacuna::fill

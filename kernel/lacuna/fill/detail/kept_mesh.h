@@ -38,8 +38,8 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh);
 ///         `split_interface()`; "fill.contact_member"  it has contact pairs.
 std::vector<std::unique_ptr<KeptMesh>> keep(FilledParts mesh);
 
-/// Move each node of a copy that differs from a node of another mesh by rounding only onto that node. Then
-/// make the skins.
+/// If a node of a copy differs from a node of another mesh by rounding only, move it onto that node. Then
+/// make the skins of all meshes.
 /// @throw InvalidInput  the errors of `io::skin_of()`.
 void add_skins(std::span<KeptMesh* const> meshes, const RunContext& context);
 

@@ -11,14 +11,15 @@
 
 namespace lacuna::fill {
 
-/// @throw InvalidInput  no ends to sweep between were found; says why.
+/// Refuse a volume for which no ends to sweep between were found.
+/// @throw InvalidInput  `Volume::no_roles`, the reason.
 void require_roles(const Volume& volume);
 
 /// The message that a volume cannot be swept. Its remedy also names the option that fills the volume with
 /// tetrahedra.
 Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& options);
 
-/// Run a sweep. @throw NotSweepable the error of the sweep, whose remedy also names tetrahedra
+/// Run a sweep. @throw NotSweepable  the error of the sweep, with the remedy of `with_tets_as_remedy()`
 template <class Do>
 auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 {
@@ -29,11 +30,12 @@ auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
     }
 }
 
-/// Make the options keep the middle nodes that the decks of a volume contain.
+/// Change the options so that the mesh keeps the middle nodes that the decks of a volume contain.
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options);
 
-/// Divide the rounds at which the walls of a volume meet an end smoothly (see `closure::split_round_rims()`).
-/// The volume is unchanged if it has no such rounds, or if the user matched or closed it.
+/// Divide the rounds (fillets) by which the walls of a volume blend smoothly into an end, see
+/// `closure::split_round_rims()`. The volume is unchanged if it has no such rounds, or if the user matched or
+/// closed it.
 Volume with_rims_divided(const Volume& volume, const RunContext& context);
 
 /// Note the given faces that pieces do not contain as faces of their own, because cutting joined them with
@@ -48,8 +50,9 @@ Volume close_to_sweep(const Volume& volume, const std::string& region, const Run
 /// The same volume with the roles of an alternative sweep of its void. @pre number < others->ways.size()
 Volume with_other_sweep(const Volume& volume, std::size_t number);
 
-/// Seal a volume that is to be cut or filled. A hollow's bottom that blends smoothly into the walls is not
-/// split from them, because only a sweep needs the split. A full-turn ring is returned unchanged.
+/// Seal a volume that is to be cut or filled. If the bottom of a hollow blends smoothly into its walls,
+/// bottom and walls are not split from each other, because only a sweep needs this split. A full-turn ring is
+/// returned unchanged.
 Volume sealed_whole(const Volume& volume, const RunContext& context);
 
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
@@ -60,7 +63,8 @@ Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string
 bool has_pieces(const Volume& volume, const RunContext& context);
 std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunContext& context);
 
-/// Call `take` with partitions of a sealed volume until it returns true, by `closure::partitions()`.
+/// Call `take` with partitions of a sealed volume, made by `closure::partitions()`, until `take` returns
+/// true.
 void partitions(const topology::OpenVolume& sealed, const closure::TakePieces& take,
                 const RunContext& context);
 

@@ -23,13 +23,13 @@ struct ElevatedTets {
 ///
 /// On the skin, middle nodes of neighbours and given middle nodes are kept bit for bit. Other middle nodes of
 /// the skin lie on the exact curve or surface of their side, or on its facets. Sides inside the volume are
-/// straight. If the Bézier bounds do not prove a cell valid, those of its sides that bend only to follow the
-/// geometry are made straight too.
+/// straight. If the Bézier bounds do not prove a cell valid, the sides of this cell are made straight, except
+/// those whose middle nodes are given.
 /// @param faces  face of each patch of the skin
 /// @param known  middle nodes of the neighbours' meshes
 /// @param region  name of the region, for messages
-/// @throw NotSweepable "fill.second_order"  a cell stays invalid because of sides that neighbours or the file
-///         give.
+/// @throw NotSweepable "fill.second_order"  a cell stays invalid because of middle nodes that a neighbour or
+///         the file gives.
 /// @throw Cancelled
 /// @note  Deterministic for any number of threads. O(n log n) in the sides of the skin, O(n) in cells.
 ElevatedTets elevate(const topology::Model& model, mesh::TetPart& mesh, const std::vector<FaceId>& faces,

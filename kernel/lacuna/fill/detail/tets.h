@@ -24,7 +24,7 @@ struct ToFill {
     const sweep::SharedMiddles& middles;          ///< at order 2: middle nodes of the meshes made before
 };
 
-/// The cells of a mesh on its face `there`, as the neighbour sees them. Face `own` of the neighbour is the
+/// The quads and triangles of a mesh on its face `there`, oriented for the neighbour, whose face `own` is the
 /// same face.
 /// @param faces  face of each patch of the mesh
 surface::FixedFace cells_on(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, FaceId there,
@@ -40,14 +40,14 @@ surface::FixedFace cells_on(const FilledTets& mesh, FaceId there, FaceId own);
 /// @return  the mesh; its `number` is still empty.
 /// @throw InvalidInput "fill.no_tets"  the options have no mesher for tetrahedra. Or the errors of
 ///         `surface::triangulate_skin()`.
-/// @throw NotSweepable "sweep.deviation"  the skin deviates; "sweep.volume" the volume deviates. Also if the
-///         proof fails, and the errors of the mesher and of `elevate()`.
+/// @throw NotSweepable "sweep.deviation"  the skin deviates from the sealed skin; "sweep.volume"  the volume
+///         deviates; the finding of the proof; or the errors of the mesher and of `elevate()`.
 /// @throw Cancelled
 FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options, const RunContext& context);
 
 /// Number the nodes of tetrahedra after the nodes of the meshes before them. A skin node at the same place as
 /// a skin node of one of these meshes gets the number of that node.
-/// @throw NotSweepable "fill.not_shared"  sides of skins that should be shared are not.
+/// @throw NotSweepable "fill.not_shared"  two meshes do not have the same sides on a face that they share.
 void number_nodes(FilledParts& mesh);
 
 } // namespace lacuna::fill

@@ -33,7 +33,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
                                           const SizeField& size, int choice);
 
 /// Add the block to a mesh of the region around it.
-/// @param around  mesh of `block.around`, whose nodes come first in it.
+/// @param around  mesh of `block.around`; its first nodes are the nodes of `block.around`.
 PlanarQuads with_block(const CentralBlock& block, PlanarQuads around);
 
 } // namespace lacuna::quads

@@ -15,7 +15,7 @@ namespace lacuna::quads::cleaning {
 /// Deviation of a quad from an ideal one.
 struct QuadLoss {
     double jacobian = 1; ///< scaled Jacobian
-    double loss = 0;     ///< 1 - jacobian, plus a penalty for a wrong area if a target size is given
+    double loss = 0;     ///< 1 - jacobian; with a target size, plus a penalty for a deviating area
 };
 
 QuadLoss loss_of(std::span<const Vec2> points, const Quad& quad, const CleanOptions& options);

@@ -21,7 +21,8 @@ struct QuadPatch {
     int irregular = 0;
 };
 
-/// Whether a template can fill a patch: yes; no; or not below the maximum number of quads.
+/// Whether a template can fill a patch: `fine`, yes; `hopeless`, no; `too_large`, not within the maximum
+/// number of quads.
 enum class PatchState { fine, hopeless, too_large };
 
 /// Grows patches one at a time, each from an irregular point to others nearby.
@@ -41,9 +42,10 @@ public:
     /// inside
     bool grow_to(Index other);
     /// Add quads until no point of the outline is concave and none occurs twice.
-    /// @return hopeless if the patch has a hole, touches itself at a boundary point of the mesh, or contains
-    ///         a boundary point that should have three quads or more; too large if it needs more than
-    ///         `largest` quads.
+    /// @return `too_large` if this needs more than `largest` quads. `hopeless` if the patch
+    ///         - has a hole,
+    ///         - touches itself at a boundary point of the mesh, or
+    ///         - contains a boundary point whose ideal number of quads is three or more.
     PatchState close(std::size_t largest);
     /// The quads around the patch, within `layers` rings.
     const std::vector<Index>& rings(int layers);

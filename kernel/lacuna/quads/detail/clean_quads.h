@@ -16,24 +16,27 @@ struct CleanOptions {
     double least = 0.6;
     int largest_patch = 400; ///< maximum number of quads that are refilled at once, >= 4
     int passes = 4;          ///< number of passes over all irregular points, >= 1
-    /// Whether a third search with larger limits follows. If so, the base budget is 50,000 quads, otherwise
-    /// 15,000.
+    /// Whether a third search with larger limits follows the first two.
     bool thorough = true;
-    /// The budget limits the number of quads in all fillings that are tried. It is this multiple of the
-    /// mesh's number of quads, plus the base budget.
+    /// Limits the total number of quads in all fillings that are tried: `effort` times the mesh's number of
+    /// quads, plus 50,000 if `thorough`, otherwise plus 15,000.
     double effort = 3;
 };
 
 /// Change the connections of quads so that more interior points have four quads, and more boundary points
 /// have the number of quads that suits their angle. The boundary is not changed.
 ///
-/// Doublets are removed first. Then patches are grown around irregular points until no corner of their
-/// outline is concave. Each patch is filled with the template of two to six sides that has the fewest
-/// irregular points (Bunin 2006; Verma and Suresh 2017). One template replaces many local changes (collapsed
-/// quads, swapped and opened edges, collapsed chords), and pairs points of three quads with points of five
-/// over any distance. A change is kept if after smoothing its corners are positive, no quad is worse than
-/// both `options.least` and the previous worst, and the loss of quality, summed over the quads, is within a
-/// limit for each irregular point removed.
+/// 1. Doublets are removed: the two quads at an interior point of two quads are merged.
+/// 2. Patches are grown around irregular points until no corner of their outline is concave.
+/// 3. Each patch is filled with the template of two to six sides that has the fewest irregular points (Bunin
+///    2006; Verma and Suresh 2017). One template replaces many local changes (collapsed quads, swapped and
+///    opened edges, collapsed chords). It also removes pairs of a point of three quads and a point of five
+///    that are far apart.
+///
+/// A filling is kept if the smoothed patch fulfils three conditions:
+/// - all corners are positive;
+/// - no quad is worse than both `options.least` and the worst quad before;
+/// - the loss of quality, summed over the quads, is within a limit for each irregular point removed.
 /// @param fixed  number of boundary points. They come first and are neither moved nor renumbered; other
 ///         points may be renumbered.
 /// @pre   quads are counter-clockwise and conforming; some may be folded. Nothing is done if they do not

@@ -14,9 +14,9 @@ namespace lacuna::quads::cleaning {
 
 /// Result of a trial.
 enum class Verdict {
-    hopeless, ///< rejected early
-    poor,     ///< smoothed with its surroundings, but not good enough
-    good      ///< put into the mesh; the quads of the patch are replaced
+    hopeless, ///< rejected before the filling was smoothed with its surroundings
+    poor,     ///< rejected after the filling was smoothed with its surroundings
+    good      ///< accepted: the filling has replaced the quads of the patch
 };
 
 /// Smooths fillings of one patch with their surroundings, one after the other, and puts a good one into the
@@ -32,10 +32,11 @@ public:
 
     /// Put a filling into the mesh in place of the patch, if the filling is good.
     ///
-    /// The filling is judged three times: before smoothing, after a few smoothing sweeps over its own points,
+    /// The filling is tested three times: before smoothing, after some smoothing sweeps over its own points,
     /// and after it is smoothed together with its surroundings.
-    /// @param hopeless  the first two judgements reject a filling whose loss exceeds this multiple of the
-    ///                  allowed loss
+    /// @param sweeps    number of smoothing sweeps
+    /// @param hopeless  the first two tests reject a filling whose loss exceeds this multiple of the allowed
+    ///                  loss
     Verdict run(const TemplateMesh& filling, int sweeps, double hopeless);
 
 private:

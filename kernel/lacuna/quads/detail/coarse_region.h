@@ -9,11 +9,12 @@
 
 namespace lacuna::quads::paving {
 
-/// Whether a loop turns so sharply at position `place` that the node there cannot be left out.
+/// Whether a loop turns so sharply at position `place` that the node there must stay in a coarse region.
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place);
 
-/// A run: the part of a loop between two nodes that stay, or a whole loop without such nodes. Some of its
-/// sides are kept whole (not merged in pairs); their number is odd if the run has an odd number of sides.
+/// A run with whole sides. Run: the part of a loop between two nodes that stay (`stays()`), or a whole loop
+/// without such nodes. Whole side: a side that is also a side of the coarse region, instead of being merged
+/// with its neighbour. A run has an odd number of whole sides if and only if its number of sides is odd.
 struct WholeRun {
     std::vector<Index> nodes; ///< nodes of the region, including the last one
     /// Index of the run's first point in the coarse region; its points are numbered consecutively.
@@ -25,16 +26,14 @@ struct WholeRun {
 };
 
 /// Positions at which the runs of a loop begin, in ascending order. The last entry is the end of the last
-/// run: the first position plus the number of the loop's nodes. Each run extends from one node that stays to
-/// the next; a loop without such nodes is one run.
+/// run: the first position plus the number of the loop's nodes. For runs see `WholeRun`.
 std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop);
 
-/// A region with every other node of its loops. Some runs have whole sides, which are sides of the coarse
-/// region too. Until `choose_whole_sides()` selects them, the points of such a run are evenly spaced along
-/// it.
+/// A region with every other node of the loops of a fine region. `choose_whole_sides()` selects the whole
+/// sides of runs that have any; until then, the points of such a run are evenly spaced along the run.
 struct CoarseRegion {
     PlanarRegion region;    ///< region with twice the size; its number of boundary sides may be odd
-    std::vector<Index> own; ///< number of each of its points in the fine region
+    std::vector<Index> own; ///< for each point of `region`, its number in the fine region
     /// For each point, the node of the fine region that was left out after it; -1: the side is whole.
     std::vector<Index> next;
     std::vector<WholeRun> runs; ///< runs with whole sides; the total number of whole sides is even
@@ -42,21 +41,20 @@ struct CoarseRegion {
 
 /// Which runs have whole sides.
 enum class WholeSides {
-    of_odd_runs, ///< only runs with an odd number of sides, one each
-    of_outline,  ///< also the longest run of the outer loop: one for each odd run elsewhere
+    of_odd_runs, ///< only runs with an odd number of sides (odd runs); each has one whole side
+    of_outline,  ///< also the longest run of the outer loop: it has one whole side for each other odd run
 };
 
-/// Leave every other boundary node out.
+/// Make a coarse region by leaving out every other boundary node.
 /// @return empty if the region has an odd number of boundary sides, or too many odd runs.
 std::optional<CoarseRegion> coarse_region(const PlanarRegion& region,
                                           WholeSides sides = WholeSides::of_odd_runs);
 
-/// Select the whole sides of the runs that have any. A row of quads leads from each whole side to a whole
-/// side of another run, and the total length of these rows is minimal. If no run has whole sides, there is
-/// nothing to select.
+/// Select the whole sides of the runs of `made`. A row of quads leads from each whole side to a whole side of
+/// another run; the sides are chosen so that the total length of these rows is minimal.
 /// @param coarse  quads and triangles of the coarse region, with its points first.
-/// @return  for each side of these cells (`mesh::opposite_sides()`), 1 if it stays whole because such a row
-///         crosses it, otherwise 0. Empty if there are no such rows.
+/// @return  for each side of these cells (`mesh::opposite_sides()`), 1 if one of these rows crosses the side,
+///         so that it stays whole; otherwise 0. Empty if there are no such rows.
 std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const PlanarQuads& coarse);
 
 /// Cut every cell of a mesh of the coarse region at the nodes that were left out: a quad into four quads, a

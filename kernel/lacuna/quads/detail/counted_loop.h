@@ -52,17 +52,18 @@ inline constexpr CountRange kRingSegment{kRing.least / kRingRounding, kRing.most
 /// Whether a number of sides is within a range of the wanted number, or differs from it by one.
 bool is_within(const CountRange& range, double wanted, int sides);
 
-/// (n − wanted)² / n. If two numbers are too large and too small by the same ratio, they cost the same.
-/// Infinite for n = 0.
+/// (n − wanted)² / n, with n = `sides`. A number of sides that is too large by some factor costs as much as a
+/// number that is too small by this factor. Infinite for n = 0.
 double cost_of_sides(double wanted, int sides);
 
-/// Numbers of sides of every segment, and their cost for comparison with those of other parts of a region.
+/// Numbers of sides of every segment, and a cost by which the numbers for different parts of a region are
+/// compared.
 struct Counts {
     std::vector<int> sides;
     double cost = 0;
 };
 
-/// Consecutive sides of a segment with the same heading.
+/// Run: consecutive sides of a segment that have the same heading in the grid.
 struct CountedRun {
     std::size_t segment = 0;
     int quarter = 0; ///< heading in quarter turns, 0…3
@@ -70,7 +71,7 @@ struct CountedRun {
     int count = 0;
 };
 
-/// The runs of one loop and its excess, which is zero if the loop closes.
+/// The runs of one loop, and the loop's excess of sides, which is zero if the loop closes in the grid.
 struct CountedLoop {
     std::vector<CountedRun> runs;
     /// For headings 0 and 1: the number of sides along the heading minus the number in the opposite
@@ -78,7 +79,7 @@ struct CountedLoop {
     std::array<int, 2> excess{};
     std::array<int, 2> added{}; ///< numbers of sides that the loop's rows of quads add along headings 0 and 1
     double wanted = 0;          ///< total number of wanted sides
-    int soft = 0;               ///< number of turns that the loop's rows of quads make
+    int soft = 0;               ///< number of soft turns of the loop, see `PatternLoop`
 };
 
 /// The runs of a loop with their wanted numbers of sides, rounded, and the excess of the loop after its rows
@@ -87,8 +88,8 @@ struct CountedLoop {
 /// @return  empty if the loop fits no grid.
 std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop, double share = 1);
 
-/// Change runs by one side, the cheapest change first, until a loop has no excess. @return  false if no
-/// further change is allowed
+/// Change the numbers of sides of runs by one, the cheapest change first, until a loop has no excess.
+/// @return  false if a loop still has an excess but no further change is allowed
 /// @throw Cancelled
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range);
 

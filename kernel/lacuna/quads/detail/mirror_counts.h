@@ -10,9 +10,10 @@
 
 namespace lacuna::quads {
 
-/// Numbers of sides for the part of a symmetric region between mirror axes. They are then applied to all
-/// images of the part. If no grid fills the part, the result is the wanted numbers, rounded, with infinite
-/// cost. @return empty if the region cannot be cut along any axis.
+/// Numbers of sides for a symmetric region: they are found for the part between mirror axes and applied to
+/// all images of this part. If no grid fills the part, the result is the wanted numbers, rounded, with
+/// infinite cost.
+/// @return empty if the region cannot be cut along any axis.
 std::optional<Counts> mirror_counts(const CountTask& task);
 
 /// Set the numbers of sides of a part's axes so that one grid fills the part, as `pattern_counts()` does. If
@@ -22,7 +23,7 @@ std::optional<Counts> mirror_counts(const CountTask& task);
 /// @throw Cancelled
 double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunContext& context);
 
-/// The axes of a part are divided by a size that grows away from short given sides. If there are fewer quads
+/// The axes of a part are divided by a graded size, which grows away from short given sides. With fewer quads
 /// than this, the requested size is tried first, because the graded size would leave too few grid lines in
 /// the part.
 inline constexpr double kFewForGrading = 200;

@@ -5,9 +5,9 @@
 
 namespace lacuna::quads::paving {
 
-/// Make sure that every boundary node has at least as many quads as its angle needs. Otherwise a quad would
-/// have a straight or reflex corner there. A nearby edge is swapped so that it ends at the node, or the
-/// widest quad at the node is pillowed.
+/// Give every boundary node at least as many quads as its angle needs. With fewer quads, one of them would
+/// have a straight or reflex corner at the node. Either a nearby edge is swapped so that it ends at the node,
+/// or the quad with the widest corner at the node is pillowed.
 void open_corners(PlanarQuads& mesh, const PlanarRegion& region);
 
 /// Pillow each quad whose smallest sine is at most `least`: put a smaller quad inside it, and surround this

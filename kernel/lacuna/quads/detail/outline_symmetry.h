@@ -85,9 +85,10 @@ struct MirrorPart {
 /// and divides no corner into halves that are far from multiples of 90°.
 ///
 /// If the centre is outside the region or in a hole, up to eight axes are used. Otherwise two perpendicular
-/// axes are used, or one if no two are perpendicular: more axes would give the centre a valence of six or
-/// more. Pairs of axes are ranked. Those that cut the most loops come first, because a loop that is cut need
-/// not be placed in the grid. Of equal pairs, those through the first node of the outer loop come first.
+/// axes are used, or one if no two are perpendicular: with more axes, six or more quads would meet at the
+/// centre. Pairs of perpendicular axes are ranked. A pair that cuts more loops ranks higher, because a loop
+/// that is cut need not be placed in the grid. Among equal pairs, one through the first node of the outer
+/// loop ranks higher.
 /// Nodes are placed along the axes at the spacing of `size`.
 /// @param symmetries  the symmetries of the region, or those of a subgroup; only these are used.
 /// @param size        spacing of the nodes on the axes.

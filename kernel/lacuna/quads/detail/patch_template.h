@@ -29,15 +29,16 @@ SideCounts side_counts(std::size_t loop, std::span<const std::size_t> corners);
 /// For each side of a patch of 3 or 5 sides, the position at which the grids meet on it, in edges from the
 /// start of the side.
 ///
-/// There is one grid at each corner. The grids are separated by spokes, lines that start at a node in the
-/// middle. The spoke that ends on side i has foot[i + 1] edges, and side i has foot[i] + foot[i + 2] edges.
-/// For an odd number of sides these equations have one solution.
-/// @param ends_in_cut  whether the last side is a cut. Then the first foot may be 0, and the grids meet on
-///         the cut.
+/// There is one grid at each corner. The grids are separated by spokes, lines of edges from a common node in
+/// the middle to a node of each side. The foot of a spoke is its node on the side. The spoke that ends on
+/// side i has foot[i + 1] edges, and side i has foot[i] + foot[i + 2] edges. For an odd number of sides these
+/// equations have one solution.
+/// @param ends_in_cut  whether the last side is a cut. Then foot[0] may be 0: the grids meet on the cut.
+/// @param foot  set to the position of each foot.
 /// @return  false if the solution does not consist of integers above 0.
 bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMostSides>& foot);
 
-/// A straight line of edges across a patch. The parts on both sides of it need no further cut.
+/// A straight line of edges across a patch. Templates fill both parts without a further cut.
 struct TemplateCut {
     std::size_t from = 0, to = 0; ///< positions in the loop
     int edges = 0;                ///< number of edges along it; 0: the patch is filled without a cut
@@ -58,8 +59,8 @@ struct TemplateCut {
 std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners,
                                    std::size_t most);
 
-/// Upper bound of the number of irregular nodes with the cuts of `find_cuts()`, if there are such cuts. A
-/// large number if the loop does not have two to six corners.
+/// Upper bound of the number of irregular nodes of a mesh that uses a cut of `find_cuts()`. A large number if
+/// the loop does not have two to six corners.
 int fewest_irregular(std::size_t loop, std::span<const std::size_t> corners);
 
 /// Quads that fill a loop.
@@ -76,8 +77,9 @@ bool can_fill(const SideCounts& counts);
 ///
 ///      3 or 5 sides: a grid at every corner, around one node of three or five quads.
 ///      4 sides, opposite ones equal: a grid.
-///      4 sides, without a cut: columns that turn off to the longer neighbour, in one or both
-///          directions. Two or four irregular nodes, near the middle.
+///      4 sides, opposite ones unequal, without a cut: some columns turn towards the longer of the
+///          two neighbouring sides, in one or both directions. Two or four irregular nodes, near the
+///          middle.
 ///      2, 4 or 6 sides, with a cut: two parts of 3 and 3, 3 and 5 or 5 and 5 sides. Two irregular nodes.
 ///      3 or 5 sides, with a cut: parts of 3 and 4 or 4 and 5 sides. Three irregular nodes.
 ///

@@ -26,22 +26,22 @@ LoopFrame straight_frame(const PlanarRegion& region);
 /// Centre of the area within a loop.
 Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop);
 
-/// The direction along which, or perpendicular to which, most of the boundary runs. If there is no such
-/// direction, that of the lines between the centres of the loops [radian].
+/// The direction to which most of the boundary is parallel or perpendicular [radian]. If there is no such
+/// direction, the direction of the lines between the centres of the loops.
 double main_angle(const PlanarRegion& region);
 
 /// A loop whose sides follow the lines of a grid.
 ///
 /// Headings are counted in right angles and not reduced modulo 4, so the difference of two neighbouring
 /// headings is the turn at the node between them: 1 at an end, 0 on a side, -1 at a corner, -2 at a reversal.
-/// If the boundary itself turns differently there, the turn is soft: the grid turns some rows of quads
-/// further inside.
+/// Soft turn: a turn of the headings at a node where the boundary itself does not turn by as many right
+/// angles. Some rows of quads are placed along the boundary, and the grid turns behind these rows.
 struct PatternLoop {
     std::vector<Index> nodes;
     std::vector<int> heading; ///< heading of the side from each node to the next
-    /// Direction of each side [right angles]; like the headings, not reduced modulo 4.
+    /// Direction of each side in the loop's frame [right angles]; like the headings, not reduced modulo 4.
     std::vector<double> direction;
-    /// For each node, number of rows that must be placed before the loop may turn there.
+    /// For each node, the number of rows that must be placed along the boundary before the grid turns there.
     std::vector<int> soft;
     std::vector<char> movable; ///< for each node, whether its turn may be moved to a neighbour
     int turns = 0;             ///< total turn of the loop in its frame, in right angles
@@ -61,14 +61,15 @@ struct PatternLoop {
     }
 };
 
-/// How the grid turns at doubtful nodes: at ends of 135°, whose angle is halfway between that of an end and
-/// that of a side, and at angles between a corner and a side.
+/// How the grid turns at doubtful nodes: nodes whose angle is about halfway between an end (90°) and a side
+/// (180°), called ends of 135°, and nodes whose angle is between a side and a corner (270°).
 enum class TurnStyle {
-    /// The grid turns where this fits the boundary best. If the boundary itself turns less there, the grid
-    /// turns behind a row.
+    /// The grid turns where this fits the boundary best. Where the boundary itself turns less, the turn is
+    /// soft.
     soft,
     hard_ends, ///< as `soft`, but at an end of 135° one quad takes the whole angle
-    /// The grid turns at the boundary if that fits almost as well, because soft turns cost irregular nodes.
+    /// The grid turns at the boundary's own corners if this fits almost as well as `soft`, because every soft
+    /// turn adds an irregular node.
     few_soft,
 };
 
@@ -77,9 +78,9 @@ bool has_half_ends(const PlanarRegion& region);
 
 /// Give every side of a loop a heading.
 ///
-/// The headings are those of least cost, by dynamic programming. A side costs the square of its deviation
-/// from its heading. A node costs the square of the difference between its angle and its turn. A row is
-/// placed at every soft turn.
+/// Dynamic programming finds the headings of least total cost. A side costs the square of the difference
+/// between its direction and its heading. A node costs the square of the difference between the boundary's
+/// turn and the headings' turn. Every soft turn gets one row.
 /// @return empty if corners are too sharp for any headings.
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
                                      const LoopFrame& frame, TurnStyle style = TurnStyle::soft);
@@ -88,34 +89,36 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
 /// `TurnStyle::soft`.
 bool has_doubtful_turns(const PlanarRegion& region);
 
-/// The number of rows that suits the soft turns at which a loop bulges: about a third of the radius of the
-/// widest turn, or 1 if there is no such turn. These rows are placed in front of all soft turns.
+/// The number of rows that suits the soft turns at which the region bulges: together, the rows are about as
+/// high as a third of the radius of the widest of these turns. 1 if there is no such turn.
 int fitting_rows(const PatternLoop& loop);
 
 /// The numbers of rows to try: one to three, and also larger numbers for wider turns. The number nearest to
 /// `fitting` comes first.
 std::vector<int> rows_to_try(int fitting);
 
-/// Set the number of rows in front of soft turns. At turns where the loop is bent inward there are at most
-/// three rows, because a hole is surrounded by other loops.
+/// Set the number of rows at all soft turns. Turns where the boundary is bent inward get at most three rows,
+/// because around a hole the other loops limit the room.
 /// @pre  `loop` is unchanged since `head_loop()`.
 void set_soft_rows(PatternLoop& loop, int rows);
 
-/// Whether grid lines can follow a loop all around. The loop must have no soft turns and a total turn of
-/// zero, and the grid must turn at every corner that suits only one quad.
+/// Whether grid lines can follow a loop all around. Conditions:
+/// - the loop has no soft turns, and a total turn of zero;
+/// - the grid turns at every node whose angle suits only one quad.
 /// @pre  `loop` is unchanged since `head_loop()`, in a polar frame.
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop);
 
 /// Place rows of quads along the parts of a loop with soft turns, until all turns are on the loop's nodes.
 ///
-/// A part of the loop ends at nodes where the boundary itself turns. At an end (one quad), the row stops on
-/// the adjacent side. At corners and reversals, the row gets an edge of its own. If an end is the only such
-/// node, the row runs around the whole loop, and one quad has its corner at that end.
-/// @return false if rows would use a side twice.
+/// Such a part extends between two nodes where the boundary itself turns. At an end (a node of one quad), the
+/// row stops on the next side. At a corner or reversal, the row stops at a new edge. If the loop has only one
+/// such node and it is an end, the row runs around the whole loop, and one quad has its corner at the end.
+/// @return false if two rows would need the same side.
 bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
                       const SizeField& height);
 
-/// A measure for the excess of sides of a loop along headings 0 and 1; 0 if the loop closes.
+/// Measure of how far a loop is from closing in the grid: the sum of the squares of its excess of sides along
+/// headings 0 and 1. It is 0 if the loop closes.
 inline int badness(const std::array<int, 2>& excess) { return excess[0] * excess[0] + excess[1] * excess[1]; }
 
 /// Move the movable turns, by as few nodes as possible, until the loop closes in the grid. A loop closes if
@@ -124,8 +127,8 @@ inline int badness(const std::array<int, 2>& excess) { return excess[0] * excess
 /// @return false if that is impossible.
 bool close_pattern_loop(PatternLoop& loop, int period);
 
-/// Make a closed round loop one column narrower and one row higher in the grid.
-/// @return  false if its turns do not allow this.
+/// Make a closed round loop one column narrower and one row higher in the grid, by moving its turns.
+/// @return  false if the turns cannot be moved so.
 bool trade_column_for_row(PatternLoop& loop);
 
 /// The loop's positions in the grid, from (0, 0).

@@ -19,11 +19,11 @@ struct Attempt {
     PlanarQuads mesh;
     PaveReport report;
     RowStyle style = RowStyle::by_shape;
-    double worst = -2;         ///< minimum sine of a quad; -2: no mesh, -1: a mesh with a fault
+    double worst = -2;         ///< least sine of the corners of all quads; -2: no mesh, -1: an invalid mesh
     Vec2 where = Vec2::Zero(); ///< centre of the worst quad
 };
 
-/// Find the worst quad.
+/// Set `worst` and `where` of an attempt.
 void judge(Attempt& attempt);
 
 /// The inputs of all attempts to fill one region.

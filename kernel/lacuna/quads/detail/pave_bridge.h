@@ -12,9 +12,7 @@ namespace lacuna::quads::paving {
 /// if it is short and divides the angles at its ends into multiples of a right angle. It must not cross loops
 /// or other lines. If every line crosses something, the shortest one is used; the resulting folds are removed
 /// later.
-/// @note  Each loop is tried with the loops nearest to it. The time is proportional to the number of nodes,
-///         except for the search for the nearest loops, whose time is proportional to the square of the
-///         number of loops.
+/// @note  Each loop is joined only to loops near it. O(nodes), plus O(loops²) for the search of these loops.
 Cycle join_loops(PartialMesh& partial, const std::vector<Cycle>& loops);
 
 } // namespace lacuna::quads::paving

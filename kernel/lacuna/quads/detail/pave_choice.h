@@ -15,13 +15,16 @@ namespace lacuna::quads::paving {
 
 /// Score by which the better of two attempts is chosen. Higher is better, and the maximum is 3.325.
 ///
-/// The score is the sum of: the mean scaled Jacobian; twice the minimum scaled Jacobian up to kGood, and half
-/// of it from there to kBest; half the share of sides that have the requested size; and half the share of
-/// rows that have the requested height. Twice the share of irregular nodes, including those on the boundary,
-/// is subtracted. The minimum counts most because a sweep repeats the worst quad and makes it worse; above
-/// kBest, smoothing reaches it anyway. The number of irregular nodes depends on the outline and not on the
-/// number of quads, so their share refers to at least kFewNodes nodes. A larger weight favours its term at
-/// the cost of the others.
+/// The score is the sum of these terms:
+/// - the mean scaled Jacobian;
+/// - twice the minimum scaled Jacobian up to kGood, and half of the part between kGood and kBest;
+/// - half the share of sides that have the requested size;
+/// - half the share of rows that have the requested height;
+/// - minus twice the share of irregular nodes, including those on the boundary. Their number depends on the
+///   outline, not on the number of quads, so the share refers to at least kFewNodes nodes.
+///
+/// The minimum counts most, because a sweep repeats the worst quad in every layer and makes it worse. The
+/// part above kBest does not count, because smoothing alone reaches such values.
 double score_of(const PlaneQuality& quality);
 
 /// A position as text for a message: "(0.5, 1.25)".
@@ -39,11 +42,11 @@ public:
     void run();
     /// Try these meshes in turn until one is good:
     /// 1. grids;
-    /// 2. if there are many quads, the quads of a coarser region, each cut in four;
-    /// 3. if there are few quads, paving without rows with the weights for few quads, and with rows with the
-    ///    first of `cut_weight_rows()`;
-    /// 4. if there are more quads, or the result is poor, paving with rows and the default weights;
-    /// 5. if that failed, or the region is small and the mesh not yet good enough, paving without rows.
+    /// 2. for many quads: the quads of a coarser region, each cut in four;
+    /// 3. for few quads: paving without rows, with the weights for few quads; and paving with rows, with the
+    ///    first weights of `cut_weight_rows()`;
+    /// 4. unless step 3 gave a good mesh: paving with rows and the default weights;
+    /// 5. if step 4 failed, or the region is small and the mesh not good enough: paving without rows.
     void try_default_weights();
     /// The score of a row style with other cut weights. The attempt is not kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;

@@ -6,9 +6,9 @@
 
 namespace lacuna::quads::paving {
 
-/// Fill the area between loops with quads. Holes are first joined to the outer loop. This loop is then cut in
-/// two recursively, until every part is a good patch or a loop of at most six nodes.
-/// @return whether `fill_patch()` filled everything as one part, without a cut.
+/// Fill the area between loops with quads. Holes are first joined to the outer loop. The joined loop is then
+/// cut in two recursively, until every part is a good patch or a loop of at most six nodes.
+/// @return whether `fill_patch()` filled the area as one patch, without a cut.
 /// @pre   the total number of nodes of the loops is even.
 /// @throw Cancelled  by the context.
 bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, const RunContext& context);

@@ -14,8 +14,9 @@ struct Cut {
     std::size_t edges = 1;        ///< mesh edges along the line
 };
 
-/// The cost of dividing an angle by a line. It is 0 if both parts of the angle suit whole numbers of quads
-/// and no quad is added.
+/// The cost of dividing an angle by a line. It is 0 if each part of the angle suits a whole number of quads,
+/// and both numbers together are the number that suits the whole angle.
+/// @param whole, part  the angle, and its part on one side of the line [radian].
 double end_cost(double whole, double part, const CutWeights& weights);
 
 /// The length that edges along a line between two points should have: the inverse of the mean of 1 / size.

@@ -9,14 +9,14 @@
 
 namespace lacuna::quads::paving {
 
-/// Finds the distance from a node to the next side of a loop in a given direction. The sides are stored by
-/// square cells.
+/// Finds the distance from a node to the next side of a loop in a given direction. The sides are stored in a
+/// grid of square cells.
 class GapFinder {
 public:
     GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops);
 
-    /// Distance from a node along a unit direction to the first side that has none of the three nodes as an
-    /// end. `reach` if there is no such side [length].
+    /// Distance from `node` along a unit direction to the first side that does not end at `before`, `node` or
+    /// `after` [length]. `reach` if there is no such side within this distance.
     [[nodiscard]] double ahead(Index before, Index node, Index after, const Vec2& direction,
                                double reach) const;
 

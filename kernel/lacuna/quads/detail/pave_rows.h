@@ -9,20 +9,19 @@ namespace lacuna::quads::paving {
 
 /// Where a row must have the requested height.
 enum class RowKind {
-    tall,  ///< the row must be so high on most of the loop; otherwise it is dropped
-    exact, ///< the row must be so high everywhere; otherwise it is dropped
+    tall,  ///< on most of the loop; otherwise the row is dropped
+    exact, ///< everywhere; otherwise the row is dropped
 };
 
-/// Whether a loop needs a row. It does if the differences between its angles and multiples of a right angle
-/// sum to more than 45°.
+/// Whether a loop needs a row: whether the differences between its angles and the nearest multiples of a
+/// right angle sum to more than 45°.
 bool needs_row(const PartialMesh& partial, const Cycle& cycle);
 
 /// Place a row of quads inward from each wanted loop, and replace the loop by the row's inner side.
 ///
-/// By their angles, nodes of the loop are ends (one quad), sides (two quads, one for each adjacent edge),
-/// corners (three quads) or reversals (four). Rows have the height `height`. Where another side is near, rows
-/// are lowered to a third of the gap, except exact rows. A row that would fold, run into another one or leave
-/// too few nodes is dropped.
+/// By its angle, a node of the loop is an end (one quad), a side (two quads, one for each adjacent edge), a
+/// corner (three quads) or a reversal (four). Where another side is near, a row that is not exact is lowered
+/// to a third of the gap. A row is dropped if it would fold, meet another row or leave too few nodes.
 ///
 /// @param wanted  whether each loop should get a row. The function sets it to false for loops that got no
 ///         row.

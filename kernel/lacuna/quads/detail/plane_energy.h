@@ -25,8 +25,9 @@ struct TargetAreas {
 /// position.
 ///
 /// The energy is the sum of f², with f = (|a|² + |b|²) / (2 det), over the corners that change if the point
-/// moves. The square gives bad corners more weight. If there is a target area h², a term (det / h² + h² /
-/// det) / 2 is added for each of these corners.
+/// moves. Here a and b are the two sides at a corner, and det = a × b. The square gives bad corners more
+/// weight. If there is a target area A, a term w (det / A + A / det) / 2 is added for each of these corners,
+/// where w is `TargetAreas::weight`.
 struct StarEnergy {
     double value = 0;
     Vec2 slope{0, 0};
@@ -108,8 +109,8 @@ public:
         return true;
     }
 
-    /// Add only the energy. @return  false if a corner is folded, or if the square of its sine is less than
-    /// `least`
+    /// Add only the energy. @return  false if a corner is folded, or if the square of a corner's sine is less
+    /// than `least`
     LACUNA_INLINE bool add_to(double& value, const Vec2& x, double weight, double least) const
     {
         Corners corners;
@@ -132,8 +133,8 @@ public:
         return true;
     }
 
-    /// For each corner that changes, add `weight` times f - 1. Quads are added one by one until the value
-    /// reaches a bound.
+    /// Add `weight` times (f - 1) for each corner that changes if the point moves. Stop after the quad with
+    /// which the value reaches `bound`.
     LACUNA_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
     {
         Corners corners;
@@ -231,7 +232,8 @@ public:
         return true;
     }
 
-    /// The energy. It is infinite if a corner is folded, or if the square of its sine is less than `least`.
+    /// The energy. It is infinite if a corner is folded, or if the square of a corner's sine is less than
+    /// `least`.
     LACUNA_INLINE double energy(const Vec2& x, double weight, double least) const
     {
         double value = 0;
@@ -241,7 +243,7 @@ public:
         return value;
     }
 
-    /// Add `weight` times the shape terms of the corners, quad by quad, until the value reaches a bound.
+    /// As `SpokeLanes::add_shapes()`, for all quads of the star.
     LACUNA_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
     {
         for (std::size_t i = 0; i < count_; ++i) lanes_[i].add_shapes(value, x, weight, bound);

@@ -97,10 +97,10 @@ inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Sta
 }
 
 /// The smallest sine, at most 1, of the corners that change if a point moves to `x`. If this sine does not
-/// exceed `floor`, the result is any number up to `floor`: the search stops at the first corner that does not
-/// exceed the floor. In most trials this is the same corner as in the previous trial.
-/// @param first  position in the star at which the search begins. On return, the position at which it
-///         stopped.
+/// exceed `floor`, the result is any number up to `floor`: the search stops at the first corner whose sine
+/// does not exceed the floor. In most trials this is the same corner as in the previous trial.
+/// @param first  position in the star at which the search begins. On return, the position at which the
+///         search stopped, so that the next trial can begin there.
 inline double least_sine_above(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
                                double floor, std::size_t& first)
 {

@@ -5,12 +5,14 @@
 
 namespace lacuna::quads::paving {
 
-/// Correct row heights: move the nodes of the first row so that its quads stand upright on the boundary and
-/// have the requested height. Smoothing alone makes rows too high where sides bend away.
+/// Correct row heights: move the inner nodes of the first row so that its quads are perpendicular to the
+/// boundary and have the requested height. Smoothing alone makes rows too high where the boundary curves away
+/// from the region.
 ///
-/// The inner neighbour of a boundary node with two quads is moved; no other node is. It is moved only if the
-/// worst quad around it stays good or does not get worse. If the row's height is already within the promised
-/// tolerance, no quad may get worse.
+/// For each boundary node with two quads, the inner neighbour is moved. No other node moves. A move is made
+/// only if afterwards the worst quad around the moved node is good (`kGoodQuad`) or not worse than before. If
+/// the row's height was already within `kRowOffHeight` of the requested height, the worst quad must not get
+/// worse.
 void correct_row_heights(PlanarQuads& mesh, const PlanarRegion& region, const SizeField& height);
 
 } // namespace lacuna::quads::paving

@@ -18,16 +18,18 @@ struct SegmentSymmetry {
     std::vector<std::size_t> onto; ///< image of each segment
 };
 
-/// One more than the highest segment number.
+/// Number of segments: one more than the highest segment number.
 std::size_t segment_count(std::span<const int> segment);
 
 /// The symmetries of a region's boundary nodes that map segments onto segments. Such a symmetry never maps an
 /// end of a segment to the inside of another segment.
-/// @param segment  segment of the side from each node to the next, 0, 1, …
+/// @param segment  for each boundary node, the number (0, 1, …) of the segment that contains the side from
+///         this node to the next.
 std::vector<SegmentSymmetry> segment_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
 /// The symmetries of `segment_symmetries()` that also map the first node of each loop with a single segment
-/// onto the first node of such a loop. This is needed where nodes are counted from the first node.
+/// onto the first node of a loop with a single segment. Without this condition, a symmetry need not map new
+/// nodes onto each other, because a loop with a single segment is divided from its first node on.
 std::vector<SegmentSymmetry> end_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
 /// Two segments that are mirror images of each other. A segment that is its own mirror image is paired with

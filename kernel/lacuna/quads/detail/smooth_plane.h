@@ -23,13 +23,16 @@ struct SmoothPlaneOptions {
 
 /// Smooth quads of the plane by moving all points except the first `fixed` ones.
 ///
-/// 1. Where a corner is folded, the quads around it are untangled by foldover-free maps (Garanzha et al.
-///    2021) in two dimensions: ε decreases as the smallest determinant grows, and each step is a minimisation
-///    by L-BFGS.
-/// 2. Each point in turn takes Newton steps on the convex energy of its corners, (|a|² + |b|²) / (2 det) and,
-///    with a size h, (det/h² + h²/det) / 2. No step may fold a quad.
+/// In the following, a and b are the two sides at a corner of a quad, and det = a × b is twice the area of
+/// the triangle between them.
+///
+/// 1. Where a corner is folded (det <= 0), the quads around it are untangled by `untangle_plane()`.
+/// 2. Each point in turn takes Newton steps that reduce an energy of the corners around it. This energy is
+///    the sum of ((|a|² + |b|²) / (2 det))² and, with a requested size h, of (det/h² + h²/det) / 2 times
+///    `size_weight`. No step may fold a quad.
 /// 3. The points of the worst quads are moved, one after the other, to the position with the largest minimum
-///    sine around them, as long as no side becomes much shorter than those around it.
+///    sine of the corners around them. Each point's shortest side keeps at least `kShortestKept` of its
+///    length.
 /// @post  the least scaled Jacobian is not smaller than before.
 /// @throw Cancelled
 /// @note  Deterministic for any number of threads. If there are 20,000 points or more, all threads share the

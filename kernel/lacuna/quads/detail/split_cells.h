@@ -21,13 +21,18 @@ struct MixedMesh {
 /// Cut convex cells into convex quads without changing the boundary. This always works, so it is used for
 /// regions in which rows and cuts fail.
 ///
-/// Every inner edge is halved, except the edges of a T-join in the dual graph. A T-join is a set of edges of
-/// which an odd number meets every terminal, and an even number meets every other cell. The terminals are the
-/// cells with an odd number of boundary edges, so each cell has an even number of whole edges. A nearly
-/// shortest T-join is found by growing breadth-first trees from all terminals at once and joining them by a
-/// minimum spanning tree. Without whole edges, a quad is cut into four quads and a triangle into three. With
-/// two whole edges, a quad is cut into two or three quads and a triangle into five. All corners of the quads
-/// stay below a straight angle if those of the cells are.
+/// Inner edges are halved, except those crossed by a T-join of the dual graph. These edges and the boundary
+/// edges stay whole. The T-join meets a cell with an odd number of boundary edges (a terminal) an odd number
+/// of times, and any other cell an even number of times. So every cell has an even number of whole edges. A
+/// nearly shortest T-join is found by growing breadth-first trees from all terminals at once and joining them
+/// by a minimum spanning tree.
+///
+/// Depending on its number of whole edges, a cell is cut as follows:
+/// - none: a quad into four quads, a triangle into three;
+/// - two: a quad into two or three quads, a triangle into five;
+/// - four: a quad stays as it is.
+///
+/// If all corners of the cells are below a straight angle, so are those of the quads.
 /// @pre   the boundary has an even number of edges; cells are convex, conforming and in one piece.
 /// @note  Deterministic. O(cells log cells).
 MixedMesh split_cells(const MixedMesh& mesh);

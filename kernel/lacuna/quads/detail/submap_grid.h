@@ -60,7 +60,8 @@ public:
     ///                below the period.
     explicit SubmapGrid(const std::vector<GridLoop>& loops, int period = 0);
 
-    /// @return false if the loops overlap in the grid, or skip grid lines.
+    /// Find the cells that the loops enclose, and give them the loops' nodes.
+    /// @return false if the loops overlap in the grid, or consecutive nodes are not one grid line apart.
     bool enclose(const std::vector<GridLoop>& loops);
     /// Add the cells within the loops as quads, with their inner nodes. Each inner node is placed between the
     /// boundary nodes of its row and of its column; the closer pair has more weight.

@@ -5,7 +5,7 @@
 
 namespace lacuna::quads {
 
-/// Fill a region with quads made from triangles. This works for all simple loops, so it is the last resort if
+/// Fill a region with quads made from triangles. This works for all simple loops. It is the last resort if
 /// rows and cuts give folded quads.
 ///
 /// Constrained Delaunay triangles of the requested size are merged in pairs that form convex quads, the best

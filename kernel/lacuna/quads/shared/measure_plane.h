@@ -33,7 +33,7 @@ struct PlaneQuality {
     double min_scaled_jacobian = 1;
     double mean_scaled_jacobian = 1;
     std::size_t interior = 0;           ///< nodes that are not on the boundary
-    std::size_t irregular = 0;          ///< interior nodes that have not four quads
+    std::size_t irregular = 0;          ///< interior nodes whose number of quads is not four
     std::size_t boundary_irregular = 0; ///< boundary nodes whose number of quads does not fit their angle
     std::size_t rows = 0;               ///< boundary sides
     std::size_t good_rows = 0;          ///< boundary sides with a good row quad, see `measure_plane()`
@@ -59,20 +59,22 @@ private:
 /// The angle inside the region at each of its boundary nodes, one loop after the other [radian].
 std::vector<double> boundary_angles(const PlanarRegion& region);
 
-/// Limits for a good row quad. The first is the deviation of a corner from its ideal angle [radian]. The
-/// second concerns the two ends of the side opposite to the boundary: the deviation of their heights from the
-/// row's height, as a share of the row's height.
+/// Limits for a good row quad:
+/// - `kRowOffRight`: largest deviation of a corner from its ideal angle (`row_corner()`) [radian];
+/// - `kRowOffHeight`: largest deviation of a node of the side opposite to the boundary from the row's height,
+///   as a share of the row's height [-].
 inline constexpr double kRowOffRight = std::numbers::pi / 9, kRowOffHeight = 0.3;
 
-/// Ideal corner angle of a row quad at a boundary node [radian]: half the node's angle if two quads share the
-/// node and the boundary bends by at most 45° there, as on a round hole; otherwise 90°. The corner across the
-/// row has the supplementary ideal angle.
+/// Ideal corner angle of a row quad at a boundary node [radian]. If two quads share the node and the boundary
+/// bends there by at most 45°, as on a round hole, it is half the node's angle. Otherwise it is 90°. The
+/// corner at the other end of the quad's side that leads inward from this node should be 180° minus this
+/// angle.
 /// @param angle  angle of the node inside the region [radian].
 /// @param quads  number of quads at the node.
 double row_corner(double angle, Index quads);
 
-/// Whether all quads at a boundary node with this many quads can have corners within kRowOffRight of their
-/// ideal angle. A single quad in a corner below 70° or above 110° cannot.
+/// Whether `quads` quads can share a boundary node so that the corner of each is within `kRowOffRight` of
+/// `row_corner()`. A single quad in a corner below 70° or above 110° cannot.
 /// @param angle  angle of the node inside the region [radian].
 bool may_be_good(double angle, Index quads);
 /// Whether `may_be_good()` holds for at least one number of quads from one to four.
@@ -80,9 +82,12 @@ bool may_be_good(double angle);
 
 /// Measure quads over a region.
 ///
-/// A row quad is good if its four corners are within 20° of their ideal angles (90° along a straight
-/// boundary, see `row_corner()`) and both ends of the side opposite the boundary are within 30 % of the row's
-/// height. The row's height is the size asked at the middle of the boundary side; without a size, it is the
+/// A row quad is a quad on a boundary side. It is good if
+/// - its four corners are within 20° of their ideal angles (90° along a straight boundary, see
+///   `row_corner()`), and
+/// - the heights of both nodes opposite to the boundary side differ from the row's height by at most 30 %.
+///
+/// The row's height is the requested size at the middle of the boundary side; without a size, it is the
 /// side's own length.
 /// @pre  `find_fault()` finds no fault other than folded corners.
 PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region);
@@ -91,12 +96,12 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region);
 /// quads.
 ///
 /// The sum rule: the sum of 4 − quads over the interior nodes plus the sum of 2 − quads over the boundary
-/// nodes is 4 times the Euler number. A boundary node has as many quads as right angles fit in its angle; if
-/// its angle is within `either` right angles of halfway between two such numbers, the better of both numbers
-/// is taken.
+/// nodes is 4 times the Euler number. The number of quads at a boundary node is its angle divided by a right
+/// angle, rounded. Near a half, both neighbouring integers are possible, and the better one is taken.
 /// @param angles  angles inside the region at its boundary nodes [radian]; nodes on straight sides may be
 ///         left out
 /// @param euler   Euler number of the region: 2 minus the number of its loops
+/// @param either  largest distance from a half at which both integers are possible [right angles]
 int least_irregular(std::span<const double> angles, int euler, double either = 0);
 
 /// `least_irregular()` for a region. No mesh has fewer irregular nodes if boundary nodes whose number of

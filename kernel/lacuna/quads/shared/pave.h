@@ -10,16 +10,16 @@ namespace lacuna::quads {
 
 /// The method by which `pave()` filled a region.
 struct PaveReport {
-    std::string used; ///< "mapped": one patch without rows; "submapped", "paved"
+    std::string used; ///< "mapped" (one patch without rows), "submapped" or "paved"
 };
 
 /// Options of `pave()`.
 struct PaveOptions {
-    /// Rows to place along every loop first, at the height `PlanarRegion::row_height`. They are not moved
-    /// afterwards. A loop without room for a row gets none, which `PlanarQuads::how` reports. Rows that are
-    /// not exact are placed where the region's shape requires them, and may move.
+    /// Number of rows to place along every loop first, at the height `PlanarRegion::row_height`. The paver
+    /// does not move these rows afterwards. A loop without room for a row gets none, and `PlanarQuads::how`
+    /// reports this. Other rows are placed where the region's shape requires them, and may move.
     int exact_rows = 0;
-    bool grids = true; ///< whether one grid may fill the region
+    bool grids = true; ///< whether a single (submapped or bent) grid may fill the region
 };
 
 /// The mesh of `pave()` and how it was made.
@@ -34,34 +34,36 @@ struct Paved {
 /// 1. A region of right angles is submapped (`submap()`). Another region of up to 4000 quads is filled by one
 ///    bent grid if possible (`fill_patterns()`). If the grid is good, it is the result.
 /// 2. Rows are placed along loops that turn without corners and have room for them.
-/// 3. Cuts are straight. A cut meets the outline at right angles if possible, and its nodes have the
-///    requested spacing. Its number of edges is such that both parts have even numbers of sides and opposite
-///    sides agree. A part that is a good patch of 3 to 5 sides is filled with grids that meet in one or two
-///    irregular nodes.
+/// 3. The remaining region is cut by straight lines. A cut meets the outline at right angles if possible, and
+///    its nodes have the requested spacing. Its number of edges is chosen so that both parts have even
+///    numbers of sides, with equal numbers on opposite sides if possible. A part that is a good patch of 3 to
+///    5 sides is filled with grids that meet in one or two irregular nodes.
 /// 4. Boundary corners that lack a quad get one. Folded quads are opened. Irregular nodes are paired and
 ///    removed, nodes are smoothed, row heights are corrected.
 ///
-/// A symmetric region whose boundary nodes allow it is cut along two perpendicular mirror axes, or along all
-/// of them if its centre is in a hole. One part is filled and its images are joined, unless the result is
-/// poor. Discs and rings are tried as a whole first. If the connections over a symmetric region are
-/// symmetric, the nodes are made symmetric to rounding (`symmetrise()`), up to 20,000 quads.
+/// Symmetry: if the outline and the boundary nodes are symmetric, the region is cut along two perpendicular
+/// mirror axes. A region with a hole at its centre is cut along all its axes. One part is meshed and its
+/// mirror images are joined, unless the result is poor. Discs and rings are first tried uncut. If the final
+/// connections are symmetric, the node positions are made symmetric to rounding (`symmetrise()`), up to
+/// 20,000 quads.
 ///
-/// Above 20,000 quads the paver meshes a coarse region, with every other boundary node and a quarter of the
-/// quads, and cuts each of them in four. This requires that every loop has an even number of nodes and turns
-/// by at most 20° at each node left out. If half the number of boundary sides is odd, the coarse mesh has a
-/// triangle, which is cut in three. A coarse region of 8,000 quads or more is coarsened again; for this, up
-/// to eight sides may be divided, each of which leaves a triangle.
+/// Many quads: above 20,000 quads the paver meshes a coarse region, with every other boundary node and a
+/// quarter of the quads, and cuts each quad in four. For this, every loop must have an even number of nodes
+/// and turn by at most 20° at each node left out. If half the number of boundary sides is odd, the coarse
+/// mesh has a triangle, which is cut in three. A coarse region of 8,000 quads or more is coarsened again. Up
+/// to eight of its sides may then be divided; each divided side gives one triangle.
 ///
-/// Up to 4000 quads, the paver makes several meshes, with and without rows and with several weightings of the
-/// cuts, and keeps the best by measured quality. Below about 1500 quads it makes three meshes without rows,
-/// with weights chosen for few quads, and one with rows. It cleans and smooths the two with the fewest
-/// initial irregular nodes, and the other two only if the worst quad of the first two is below 0.75. It tries
-/// other weights only if these four meshes are poor. Sizes are compared with the size that the given sides
-/// permit.
-/// The search ends when a mesh is good and its number of irregular nodes is near the minimum that topology
-/// allows (`least_irregular()`). Boundary nodes are kept, in order, bit for bit. Quads are counter-clockwise
-/// and convex. Flat quads remain only where the boundary's sides are long compared with the gap between them;
-/// the log reports this.
+/// Few quads: up to 4000 quads, the paver makes several meshes, with and without rows and with several
+/// weightings of the cuts, and keeps the one with the best measured quality. Below about 1500 quads it first
+/// makes four: three without rows, with weights chosen for few quads, and one with rows. It cleans and
+/// smooths the two with the fewest irregular nodes. It cleans and smooths the other two only if the worst
+/// quad of the first two has a scaled Jacobian below 0.75. It tries other weights only if all four are poor.
+/// The search ends when a mesh is good and has nearly the minimum number of irregular nodes that topology
+/// allows (`least_irregular()`). Edge lengths are judged by the size that the given boundary sides permit,
+/// not by the requested size alone.
+///
+/// Boundary nodes are kept, in order, bit for bit. Quads are counter-clockwise and convex. Flat quads remain
+/// only where boundary sides are long compared with the gap between them; the log reports these quads.
 ///
 /// @throw InvalidInput "surface.pave_loops"   a loop is too short, repeats a node, crosses another loop or
 ///         lies outside the first one.

@@ -9,7 +9,8 @@
 
 namespace lacuna::quads {
 
-/// Move the nodes of quads over a symmetric region so that the positions are as symmetric as the connections.
+/// Move the inner nodes of quads over a symmetric region, so that their positions become as symmetric as
+/// their connections.
 ///
 /// The region's symmetries are the rotations and reflections that map its boundary nodes onto each other.
 /// Only those that also map quads onto quads are used. Every inner node moves to the mean of its position and
@@ -24,8 +25,9 @@ std::size_t symmetrise(PlanarQuads& mesh, const PlanarRegion& region);
 
 /// Find the segments of a region's boundary that its symmetries map onto each other.
 ///
-/// @param segment  segment of the side from each node to the next, 0, 1, …. Segments that are mapped onto
-///         each other get equal node spacing.
+/// The caller gives such segments equal node spacing.
+/// @param segment  for each boundary node, the number (0, 1, …) of the segment that contains the side from
+///         this node to the next.
 /// @return  for each segment, the lowest number among its images, itself included.
 /// @note    A symmetry that maps the end of a segment into the inside of another does not count.
 std::vector<std::size_t> segments_alike(const PlanarRegion& region, std::span<const int> segment);

@@ -11,19 +11,21 @@
 ///
 /// Let U(v,w), V(u,w), W(u,v) be the edge vectors of the cell along u, v, w, each bilinear. The Jacobian of
 /// the trilinear map is J = det(U, V, W), quadratic in each of u, v, w. Its 27 Bézier coefficients follow
-/// from 20 determinants (Johnen, Weill and Remacle 2017). At a corner the coefficient is J itself; at the
-/// middle of an edge along u it is (J0 + J1 - det(U, V1 - V0, W1 - W0)) / 2. J has no u²v², u²w² or v²w²
-/// term. So the coefficient at the middle of a side or of the cell follows from the square of coefficients
-/// around it: half the sum of the four at the edges of the square, minus a quarter of the sum of the four at
-/// its corners.
+/// from 20 determinants (Johnen, Weill and Remacle 2017):
+/// - At a corner, the coefficient is J itself.
+/// - At the middle of an edge along u, it is (J0 + J1 - det(U, V1 - V0, W1 - W0)) / 2. The indices 0 and 1
+///   denote the two ends of the edge.
+/// - At the middle of a side or of the cell, it follows from eight coefficients around it, which form a
+///   square, because J has no u²v², u²w² or v²w² term. It is half the sum of the four coefficients at the
+///   edges of the square, minus a quarter of the sum of the four at the corners of the square.
 namespace lacuna::quality {
 
 /// Number of cells processed together by vector instructions; their data fit into the first-level cache.
 /// Measured with AVX2 and all coefficients of every cell: 27 ns per cell; 45 ns with 16 lanes, 31 ns with 64.
 inline constexpr int kLanes = 32;
 
-/// End corners of each edge, [d][e]: the edge runs in direction d (u, v, w); e encodes its ends in the other
-/// two directions, the lower direction fastest.
+/// End corners of each edge, [d][e]. The edge runs in direction d (u, v, w). The two bits of e are the edge's
+/// positions (0 or 1) in the other two directions; the lower bit belongs to the lower direction.
 inline constexpr std::size_t kEdgeNodes[3][4][2] = {
     {{0, 1}, {3, 2}, {4, 5}, {7, 6}}, {{0, 3}, {1, 2}, {4, 7}, {5, 6}}, {{0, 4}, {1, 5}, {3, 7}, {2, 6}}};
 
@@ -35,7 +37,7 @@ using LevelBatch = double[4][3][N];
 template <int N>
 struct CellBatch {
     alignas(64) LevelBatch<N> level[2];
-    std::size_t low = 0; ///< which of the two levels holds corners 0 to 3
+    std::size_t low = 0; ///< index of the level that holds corners 0 to 3
 
     [[nodiscard]] double (&corner(std::size_t c))[3][N] { return level[low ^ (c / 4)][c % 4]; }
     [[nodiscard]] const double (&corner(std::size_t c) const)[3][N] { return level[low ^ (c / 4)][c % 4]; }
@@ -87,8 +89,9 @@ bool positive_everywhere(const CoefficientsView& bezier, int max_depth);
 /// Result of `signs_after_cut()` for one cell; open: undecided.
 enum class Sign : std::uint8_t { open, positive, not_positive };
 
-/// Test all cells of a batch at once, by one bisection along u, one along v and one along w; it is enough if
-/// one of them decides. This decides most of the cells that the coefficients leave open.
+/// Test all cells of a batch at once. Each cell is bisected once along u, once along v and once along w; its
+/// sign is known if one of these bisections decides. This decides most of the cells that the coefficients
+/// alone leave undecided.
 /// @return consistent with `positive_everywhere()`.
 std::array<Sign, kLanes> signs_after_cut(const CellValues<kLanes>& values);
 

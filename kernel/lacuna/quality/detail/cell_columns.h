@@ -10,9 +10,9 @@
 #include <cstddef>
 #include <span>
 
-/// Access to the cells of both kinds of mesh as columns, so that each level of nodes is loaded once for the
-/// cells below and above it. Internal to this folder. Cell (column, layer) has the number layer · columns +
-/// column.
+/// Access to the cells of a swept mesh, or of a list of cells, as columns. Each level of nodes is loaded once
+/// for the cells below and above it. Cell (column, layer) has the number layer · columns + column. Internal
+/// to this folder.
 namespace lacuna::quality {
 
 using LevelCorners = std::array<const Vec3*, 4>;

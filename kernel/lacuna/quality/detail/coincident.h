@@ -24,10 +24,10 @@ inline double coincidence_tolerance(const Eigen::AlignedBox3d& bounds)
     return kSamePlace * bounds.diagonal().norm();
 }
 
-/// A grid of cubes with sides of 1024 tolerances. A point within a tolerance of a cube's side is entered in
-/// the neighbouring cube too, so two points within a tolerance share a cube. Meshes often have whole planes
-/// of nodes exactly on their bounds. The grid is shifted against the bounds by a fraction of a cube, so that
-/// few points lie near sides of cubes.
+/// A grid of cubes whose edges are 1024 tolerances long. A point within a tolerance of a cube's side is also
+/// entered in the neighbouring cube, so two points within a tolerance of each other share a cube. The grid is
+/// shifted against the bounds of the points by a fraction of a cube: meshes often have whole planes of nodes
+/// exactly on their bounds, and these nodes would otherwise lie on sides of cubes.
 struct CoincidenceGrid {
     Vec3 corner;
     double tolerance;

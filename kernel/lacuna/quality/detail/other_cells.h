@@ -15,9 +15,9 @@
 /// Arithmetic of one cell that is not a hexahedron. Internal to this folder.
 ///
 /// A pyramid is (1 - w) B(u, v) + w A, with the bilinear map B of its base and its apex A. Its Jacobian is
-/// (1 - w)² det(B_u, B_v, A - B), and this determinant is bilinear in u and v. So it is positive everywhere
-/// but at the apex if and only if it is positive at the four corners of the base. A tetrahedron has one
-/// determinant.
+/// (1 - w)² det(B_u, B_v, A - B), where B_u and B_v are derivatives of B. This determinant is bilinear in u
+/// and v. So the Jacobian is positive everywhere except at the apex if and only if the determinant is
+/// positive at the four corners of the base. The Jacobian of a tetrahedron is constant.
 namespace lacuna::quality {
 
 enum class CellKind : std::uint8_t { hex, wedge, pyramid, tet };

@@ -18,7 +18,7 @@ struct WorstList {
     };
     std::vector<Entry> entries;
 
-    /// False if a cell with this value does not belong to the list.
+    /// Whether a cell with this value may belong to the list.
     [[nodiscard]] bool takes(double scaled_jacobian) const
     {
         return entries.size() < kMost || scaled_jacobian <= entries.back().cell.scaled_jacobian;

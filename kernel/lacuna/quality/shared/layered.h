@@ -31,29 +31,31 @@ struct MeasuredLayers {
 
 /// Measure a mesh whose nodes are computed on demand, some layers at a time. The result is that of
 /// `measure()`, but sums may differ in the last digits. Memory does not depend on the number of layers. A
-/// team shares the layers; each process gets the whole result, which does not depend on the team's size.
+/// team of processes shares the layers. Each process gets the whole result, which does not depend on the
+/// number of processes.
 /// @throw Cancelled; TeamFailed
 MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& context = {},
                        const Team* team = nullptr);
 
-/// Mean cell volume of such a mesh. If it is passed to `metric_values()` for some of the layers, their values
-/// have the same bits as in the whole mesh. A team shares the work as in `measure()`.
+/// Mean cell volume of a mesh whose nodes are computed on demand. If this mean is passed to `metric_values()`
+/// for some of the layers, the values of these layers have the same bits as in the whole mesh. A team shares
+/// the work as in `measure()`.
 /// @throw Cancelled; TeamFailed
 double mean_volume(const mesh::LayeredMesh& layered, const RunContext& context = {},
                    const Team* team = nullptr);
 
-/// Find a node of such a mesh that is not finite, or two coincident nodes. A team shares the work as in
-/// `measure()`.
+/// Find a node that is not finite, or two coincident nodes, of a mesh whose nodes are computed on demand. A
+/// team shares the work as in `measure()`.
 ///
-/// Neighbouring slabs are searched together. Other slabs are searched only if their boxes overlap, as at a
-/// sharp bend, and only among the nodes in both boxes; nodes that do not fit into memory at once are computed
-/// again in parts.
+/// Each slab is searched together with the next one. Two slabs that are not neighbours are compared only if
+/// their boxes overlap, as at a sharp bend, and only their nodes inside both boxes are compared. If these
+/// nodes do not fit into memory at once, they are computed again in parts.
 /// @param slabs  from `measure()`
 /// @throw Cancelled; TeamFailed
 std::optional<Finding> find_misplaced(const mesh::LayeredMesh& layered, std::span<const SlabPlace> slabs,
                                       const RunContext& context = {}, const Team* team = nullptr);
 
-/// Prove that such a mesh is valid, with the checks of `prove()`.
+/// Prove that a mesh whose nodes are computed on demand is valid, with the checks of `prove()`.
 /// @param measured   the quality from `measure()`
 /// @param misplaced  the result of `find_misplaced()`
 Proof prove(const mesh::LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,

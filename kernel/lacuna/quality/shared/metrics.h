@@ -17,8 +17,8 @@ namespace lacuna::quality {
 /// Verdict's metrics of a hexahedron @cite stimpson_2007_verdict, as vtkMeshQuality of VTK 9.1 computes them.
 ///
 /// "Axes" are the three vectors between the centres of opposite sides; "corners" are the triples of edges at
-/// a corner. Where Verdict returns 1e30 or NaN for a metric whose larger values are better, the value is 0
-/// here, so that degenerate cells do not improve averages or rankings.
+/// a corner. If larger values of a metric are better and Verdict returns 1e30 or NaN, the value is 0 here, so
+/// that degenerate cells do not improve averages or rankings.
 enum class Metric {
     scaled_jacobian,             ///< at the corners only, as everywhere in Lacuna
     scaled_jacobian_with_centre, ///< as in Verdict: the axes count as a ninth corner
@@ -108,8 +108,8 @@ std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, cons
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,
                                   const RunContext& context = {});
 
-/// Sum of the cells' `volume` for each layer. A layer that is measured alone gives the same bits as in the
-/// whole mesh. Parallel; independent of the number of threads.
+/// For each layer, the sum of the metric `volume` over its cells. A layer that is measured alone gives the
+/// same bits as in the whole mesh. Parallel; the result is the same for any number of threads.
 std::vector<double> layer_volumes(const mesh::HexMesh& mesh, const RunContext& context = {});
 /// Mean `volume` of `cells` cells, from the sums of all layers.
 double mean_volume(std::span<const double> layers, std::size_t cells);

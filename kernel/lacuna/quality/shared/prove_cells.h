@@ -16,9 +16,13 @@ struct CellsProof : Proof {
     std::vector<Quad> skin;
 };
 
-/// Prove that cells of any origin are a valid mesh, as `prove()` does for a swept mesh. Each side is used
-/// once, or twice in opposite directions; no quad lies against triangles; the skin is closed; no nodes
-/// coincide or are unused; every Jacobian is certified positive.
+/// Prove that cells of any origin are a valid mesh, as `prove()` does for a swept mesh. A valid mesh fulfils
+/// these conditions:
+/// - each side is used once, or twice in opposite directions;
+/// - no quad of one cell lies against triangles of others;
+/// - the skin is closed;
+/// - no nodes coincide or are unused;
+/// - every Jacobian is certified positive.
 /// @param cells  hexahedra, and others as for `measure_cells()`.
 /// @throw Cancelled
 /// @note  O(cells) if few sides meet at a node. Independent of the number of threads.

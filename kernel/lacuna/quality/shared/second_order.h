@@ -12,7 +12,7 @@
 
 namespace lacuna::quality {
 
-/// Curved cells that a thread takes at a time: each takes a few microseconds.
+/// Number of curved cells that a thread processes at a time; a cell takes a few microseconds.
 inline constexpr std::size_t kCurvedGrain = 256;
 
 /// Validity and quality of a hexahedron of order 2.
@@ -32,9 +32,10 @@ struct CurvedCell {
 ///
 /// Algorithm: the Jacobian of a triquadratic map is a polynomial of degree five in each direction. Its 216
 /// Bézier coefficients follow from its values on a grid of 6³ points @cite johnen_2013_curvilinear. If all
-/// are positive, the cell is valid; if one at a corner is not positive, it is invalid. Otherwise the cell is
-/// bisected along the most effective direction, at most `max_depth` times in each direction. If this does not
-/// decide, the cell counts as invalid. Coefficients count as positive above their rounding error.
+/// coefficients are positive, the cell is valid. If the coefficient at a corner is not positive, the cell is
+/// invalid. Otherwise the cell is bisected, each time along the direction with the smallest inner
+/// coefficient, and at most `max_depth` times along each direction. If this does not decide, the cell counts
+/// as invalid. A coefficient counts as positive only if it exceeds its rounding error.
 CurvedCell judge(std::span<const Vec3, 27> nodes, int max_depth = 4);
 
 /// Whether the middle nodes are where linear interpolation puts them, up to rounding. The cell then has the

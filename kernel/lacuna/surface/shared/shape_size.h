@@ -46,8 +46,8 @@ struct ShapeSize {
 ///   the size is w / gap.
 /// - Sag: where the rim has the curvature k, a mesh side may have a sag of at most a quarter of w, so that
 ///   sides stay away from the opposite rim. Their length is then at most √(2 w / k).
-/// - Slivers: if w is less than the requested size, and one rim is divided finer than that because it is curved,
-///   a straight edge opposite gets the same size as this rim.
+/// - Slivers: if w is less than the requested size, and one rim is divided finer than that because it is
+///   curved, a straight edge opposite gets the same size as this rim.
 ///
 /// Two edges with a common corner form a wedge, in which w goes to zero; there the width is ignored. For two
 /// edges that share both corners, as on a lens, w is at least the mean width of the face: twice its area

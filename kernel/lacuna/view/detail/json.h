@@ -47,7 +47,8 @@ private:
     void comma();
 
     std::string text_;
-    bool first_ = true; ///< no comma needed: the brackets are empty so far, or a key precedes
+    /// Whether the next value needs no comma, because brackets were just opened or a key was written.
+    bool first_ = true;
 };
 
 } // namespace lacuna::view

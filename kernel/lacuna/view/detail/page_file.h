@@ -9,13 +9,13 @@
 
 namespace lacuna::view {
 
-/// A grid that coordinates are rounded to.
+/// A grid to whose points coordinates are rounded.
 struct Grid {
     Vec3 low = Vec3::Zero(), centre = Vec3::Zero();
     double step = 1;   ///< [model length]
     double radius = 1; ///< radius of a ball around the centre that contains everything [model length]
 };
-/// The grid over a box; its steps are 2^-21 of the largest extent. @pre  the box is not empty
+/// The grid over a box. Its step is 2^-21 of the largest extent of the box. @pre  the box is not empty
 Grid grid_over(const Eigen::AlignedBox3d& box);
 
 /// Write `low`, `centre`, `step`, `radius`, and the colours shared by pages and pictures.

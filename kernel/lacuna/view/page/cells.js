@@ -39,7 +39,7 @@ const kFaceOfQuadSide = [2, 1, 3, 0]; // face of the cell over each side of its 
 const kNoValue = -32768,
     kNoFace = -(2 ** 31);
 
-// Quads times layers: cell (layer l, quad q) is l · quads + q; nothing is stored for each cell.
+// The cells of a sweep: cell (layer l, quad q) has the number l · quads + q. Nothing is stored for each cell.
 class SweptCells {
     static async load(r, data) {
         const cells = new SweptCells();

@@ -147,7 +147,7 @@ class Drawing {
         this.buffers = {};
         this.single = gl.createBuffer();
         this.strips = { buffer: gl.createBuffer(), quads: 0 };
-        this.closed = false; // closed skins that face outward: cull sides that face away
+        this.closed = false; // closed skin, oriented outward: sides that face away are not drawn
         this.sideCount = this.lineCount = this.topCount = 0;
         this.hover = -1;
         this.edges = 0.7;
@@ -247,8 +247,8 @@ class Drawing {
         this.fine ??= this.makeSkin(this.sideNodes, this.sideCount, kSideTextures);
         return this.fine;
     }
-    // Coarser skins: each has about a quarter of the sides of the previous one,
-    // with colours and without edges.
+    // Coarser skins. Each has about a quarter of the sides of the previous one. Sides have colours but no
+    // edges.
     coarseSkin(halvings) {
         if (this.coarse?.halvings !== halvings) {
             const { area, count } = this.fineSkin().parts;

@@ -30,7 +30,8 @@ async function start() {
     const stage = {
         box,
         canvas,
-        // Draw once before the next frame, however often it is requested; completely when nothing moves.
+        // Draw once before the next frame, however often drawing is requested. When nothing moves, draw the
+        // complete picture.
         change(moves = false) {
             moving ||= moves;
             if (asked || !page) return;
