@@ -24,10 +24,11 @@ constexpr double kHeight = 0.5;
 /// between the two pyramids get one third each.
 constexpr double kShare = 1.0 / 3;
 /// On a warped quad, a pyramid is valid only above a least height. The first height is at least this multiple
-/// of the least height. With 2, pyramids cross others.
+/// of the least height. With a multiple of 2, pyramids crossed other faces.
 constexpr double kAboveLeast = 1.5;
 /// Limit on the number of times that a pyramid is lowered. Each time, the part of its height above the least
-/// height is halved. A pyramid that is 32 times too flat is no better than none.
+/// height is halved. After five times, this part is a 32nd of its first value; a flatter pyramid would be of
+/// no use.
 constexpr int kLowerings = 5;
 
 struct Pyramid {

@@ -36,7 +36,8 @@ std::vector<SplineSurfaceData> swept_patches(const geometry::SweptSurface& surfa
 {
     const std::vector<double>& params = surface.params();
     const auto [low, high] = surface.heights();
-    // An interval for each row of facets, of which a full turn has 72, for paths of any number of turns.
+    // Allow at least one interval for each row of facets. A full turn has 72 rows, and a path may have any
+    // number of turns.
     const std::size_t most = std::max(kMostIntervals, surface.motion()->rows.size());
     std::vector<SplineSurfaceData> patches;
     const std::size_t step = surface.has_kinks() ? 1 : params.size() - 1;

@@ -109,8 +109,9 @@ double processor_seconds(pid_t process)
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-/// The processor time of a request is limited, so that a good file does not fail on a busy machine. A process
-/// that waits uses no processor time, so the elapsed time is limited too, to this multiple.
+/// Limit on the elapsed time of a request, as a multiple of the limit on its processor time. The lower limit
+/// applies to processor time, so that a good file does not fail on a busy machine. A process that hangs
+/// without computing uses no processor time and is stopped by this limit.
 constexpr double kWallFactor = 4;
 
 Channel::Patience patience_of(const RunContext* context, double seconds, double grace, pid_t worker)

@@ -119,7 +119,8 @@ void read_curves(CadWire& wire)
         curve.params = evenly(curve.low, curve.high, kFineSides);
         curve.points = curve_points(curve.tag, curve.params);
         curve.length = geometry::length(curve.points);
-        // In some files a curve runs opposite to its vertices; follow the parameters.
+        // In some files, the vertices of a curve are listed in the opposite order. The order of the
+        // parameters decides.
         const Vec3& begin = wire.vertices[index(curve.from)].at;
         const Vec3& end = wire.vertices[index(curve.to)].at;
         const double kept = (begin - curve.points.front()).norm() + (end - curve.points.back()).norm();

@@ -32,9 +32,10 @@ struct CadSource {
     std::unordered_map<int, ParameterBox> boxes; ///< parameter rectangle of every face
 };
 
-/// Project points to a face, each starting at its start parameters: damped Gauss-Newton for all points at
-/// once. Second derivatives are added for points that converge slowly.
+/// Project points to a face by damped Gauss-Newton steps for all points at once. Second derivatives are added
+/// for points that converge slowly.
 /// @param points  replaced by their projections [model length].
+/// @param uv      start parameters of each point; replaced by the parameters of its projection.
 void project_on_face(const CadSource& source, int tag, std::span<Vec3> points, std::span<Vec2> uv);
 
 /// Points of a curve at given parameters of the curve [model length].
@@ -63,7 +64,7 @@ std::vector<Eigen::Matrix<double, dimension, 1>> unflat(const std::vector<double
 
 std::vector<Vec3> curve_points(int tag, const std::vector<double>& params);
 /// Defining points of a curve that is a line segment or an elliptic arc; else empty. The type that Gmsh
-/// reports is not trusted: points of the form are compared with the curve, up to rounding.
+/// reports is not trusted: points of the segment or arc must agree with the curve, up to rounding.
 std::vector<Vec3> plain_form(int tag, double first, double last);
 std::vector<Vec3> curve_tangents(int tag, const std::vector<double>& params);
 std::vector<Vec3> surface_points(int tag, const std::vector<Vec2>& uv);

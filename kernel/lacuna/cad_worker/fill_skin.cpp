@@ -114,8 +114,8 @@ FillSkinReply fill_skin(const FillSkinRequest& skin)
     session.set("Mesh.MeshOnlyVisible", 0);
     session.set("Mesh.MeshOnlyEmpty", 0);
     session.set("Mesh.Optimize", 1);
-    // The mean least scaled Jacobian of 24 volumes is 0.14 with 0.5, and 0.13 with 0.3, Gmsh's default. With
-    // 0.8 it does not improve, but takes twice the time.
+    // Over 24 test volumes, the mean of the minimum scaled Jacobian is 0.14 with 0.5, and 0.13 with 0.3,
+    // Gmsh's default. A value of 0.8 does not improve it, but takes twice the time.
     session.set("Mesh.OptimizeThreshold", 0.5);
     session.set("Mesh.OptimizeNetgen", 0); // not in every build of Gmsh
     GmshModel model(session);

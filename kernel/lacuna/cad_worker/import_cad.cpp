@@ -22,7 +22,8 @@ namespace {
 constexpr double kSidesPerTurn = 48;
 /// Longest segment, relative to the diagonal.
 constexpr double kLongestSide = 1.0 / 20;
-/// Limit on the grid cells of all faces together, and the range of the limit for each face.
+/// Limit on the grid cells of all faces together. The limit for each face is an equal share, but lies between
+/// the two other values.
 constexpr double kMaxCells = 400'000;
 constexpr double kMaxCellsOfFace = 16'000;
 constexpr double kMinCellsOfFace = 100;

@@ -68,6 +68,6 @@ int main()
     } catch (...) {
         ::_exit(1);
     }
-    // Skip destructors, as libraries may be in an undefined state.
+    // Skip destructors, because libraries may be in an undefined state.
     ::_exit(0);
 }

@@ -14,8 +14,8 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Largest sag of a segment relative to its distance from another edge. It is also the relative error of a
-/// thin ring's area: one percent.
+/// Largest sag of a segment relative to its distance from another edge. The relative error of a thin ring's
+/// area is then also at most one percent.
 constexpr double kSag = 0.01;
 /// Largest refinement factor: a whole circle then has 384 segments.
 constexpr double kMost = 8;

@@ -23,8 +23,8 @@ public:
     [[nodiscard]] static std::string version();
 };
 
-/// A scope for calls of Gmsh. At its end, the options that it set are restored, and so are options that
-/// scripts may set and later calls depend on.
+/// A scope for calls of Gmsh. At its end, two kinds of options are restored: those that the session has set,
+/// and those on which later calls depend and which a script may have set.
 /// @pre  a `Gmsh` object exists.
 class Session {
 public:

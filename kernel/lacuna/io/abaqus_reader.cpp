@@ -673,8 +673,8 @@ private:
             global.sections.clear();
             finish_scope(global);
             if (sections) into_.pass_over("sections of the assembly");
-            // Add the nodes and sets of the assembly itself. The members of its sets already have the offset
-            // numbers.
+            // Add the nodes and sets of the assembly itself. The numbers in its sets already include the
+            // offsets of the instances.
             std::vector<DeckSet> sets = std::move(global.builder.deck().sets);
             global.builder.deck().sets.clear();
             if (!global.builder.deck().points.empty())

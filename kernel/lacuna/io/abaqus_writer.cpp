@@ -385,8 +385,9 @@ private:
             }
     }
 
-    /// Choose distinct names of sets and regions. Surfaces choose before element sets, and sets that can keep
-    /// their names before those that cannot.
+    /// Choose distinct names of sets and regions. Surfaces are named first, then node sets, then element
+    /// sets. Within each kind, sets whose names are valid in Abaqus come first, so that they keep these
+    /// names.
     void choose_names()
     {
         using enum mesh::SetKind;

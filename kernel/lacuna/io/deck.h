@@ -85,8 +85,8 @@ struct DeckSet {
     std::vector<DeckSide> sides{}; ///< members of a surface, increasing, each once
     bool listed = false;           ///< an Abaqus deck lists it on a card of its own although it equals a
                                    ///< region
-    bool of_one_deck = false;      ///< holds all nodes or all solids of one deck, where several decks were
-                                   ///< merged
+    bool of_one_deck = false;      ///< after a merge: holds all nodes or all solids of one of the merged
+                                   ///< decks
 };
 
 /// A part instance. Decks without parts have none.
@@ -101,7 +101,7 @@ struct DeckInstance {
 };
 
 /// Text of a file besides its mesh, verbatim, with line ends. It is written again if the format stays the
-/// same. The text of an included file replaces the INCLUDE.
+/// same. The text of an included file replaces the INCLUDE card.
 struct DeckText {
     enum class Place : std::uint8_t {
         head,  ///< before the mesh: executive and case control up to BEGIN BULK; text before the first *NODE
@@ -142,7 +142,7 @@ struct Deck {
     std::vector<DeckBlock> blocks;
     std::vector<DeckRegion> regions;
     std::vector<DeckSet> sets;
-    std::vector<mesh::ContactPair> contacts{}; ///< of meshes that were not read from a file
+    std::vector<mesh::ContactPair> contacts{}; ///< contacts between meshes that were not read from a file
     std::vector<DeckInstance> instances;
     std::vector<DeckText> texts;
     std::vector<std::string> notes; ///< ignored content with counts; one sentence each

@@ -20,7 +20,7 @@
 
 namespace lacuna::io {
 
-/// A set of nodes of a swept mesh: those of the columns over some nodes of its first level.
+/// A set of nodes of a swept mesh: all nodes of the columns over the given nodes of the first level.
 struct ColumnSet {
     std::string name;
     std::vector<Index> nodes{}; ///< < `HexMesh::nodes_per_layer`, rising
@@ -47,7 +47,8 @@ struct MeshDeckOptions {
 /// Indices of sets in a deck, by the kind of the set and the group that it holds.
 using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
 
-/// The sets of a deck by their names in capitals, as far as they were counted; and their highest tag.
+/// An index of the first `counted` sets of a deck by their names in capitals, and the highest tag of these
+/// sets.
 struct SetNames {
     std::size_t counted = 0;
     std::unordered_map<std::string, std::vector<std::size_t>> sets{}; ///< ascending indices
@@ -106,7 +107,7 @@ Deck join_deck(const Deck& deck, const topology::Model& model, double scale, con
 /// such elements would be shells (Abaqus, Nastran, Exodus). Elements on faces of solids become sets of nodes
 /// and of sides. These are named after the elements' sets; without sets, after their region or its number:
 /// `surface:3`. Other elements are unchanged.
-/// @note  O(n log n) in the elements of two dimensions, O(n) in the solids.
+/// @note  O(n log n) in the two-dimensional elements, O(n) in the solids.
 Deck skin_as_sets(Deck deck, DeckFormat format);
 
 struct DeckInScale {

@@ -701,11 +701,11 @@ private:
         if (!text.empty()) file_.add(head_of(set, "*SET_SEGMENT_TITLE") + text);
     }
 
-    /// Add each contact pair as two segment sets: surface A is the slave, surface B the master. A tie with an
-    /// offset moves no node. Fields 3 and 4 of the third card are thicknesses; if they are negative, nodes
-    /// are tied by distance alone (PyDYNA's keyword classes). The distance limit is the sum of both, or 0.6
-    /// times the sum in converters to OpenRadioss. Each is minus the tolerance, so either limit exceeds the
-    /// tolerance.
+    /// Add each contact pair as two segment sets: surface A is the slave, surface B the master. A tied
+    /// contact with an offset moves no node. Fields 3 and 4 of its third card are thicknesses; if they are
+    /// negative, nodes are tied by distance alone (PyDYNA's keyword classes). The distance limit is then the
+    /// sum of both values without their signs; converters to OpenRadioss use 0.6 times this sum. Both fields
+    /// are written as minus the tolerance, so the limit is 2 or 1.2 times the tolerance.
     void add_contacts()
     {
         for (const mesh::ContactPair& pair : view_->contacts) {

@@ -29,8 +29,8 @@ std::string_view word_of(DeckShape shape)
     return kWords[static_cast<std::size_t>(shape)];
 }
 
-/// The index in the order of DeckShape of FEBio's node `k`. In a hex27, FEBio lists the centres of the four
-/// sides around first, then those of bottom and top.
+/// The position of FEBio's node `k` in the order of DeckShape. In a hex27, FEBio lists the centres of the
+/// four side faces before the centres of the bottom and top faces.
 std::size_t place_of(DeckShape shape, std::size_t k)
 {
     constexpr std::size_t kCentres[] = {22, 21, 23, 20, 24, 25, 26};

@@ -32,7 +32,8 @@ struct Format {
     enum class Skin { quads, nodes, nodes_and_sides };
     Skin skin = Skin::quads;
     bool has_lines = false, has_hex27 = false;
-    /// Whether cells of order 2 may have no thickness: its solver accepts them, or it belongs to no solver.
+    /// Whether the format can hold cells of order 2 without thickness. This is so if the solver of the format
+    /// accepts such cells, or if the format belongs to no solver.
     bool has_thin_order2 = true;
     bool numbers_regions = false; ///< users identify regions by property number
     /// Which kinds of sets of a deck it cannot store, and why; empty: it stores all.

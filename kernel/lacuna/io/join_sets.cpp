@@ -169,8 +169,9 @@ private:
     std::vector<double> area_; ///< area of each of these quads
 };
 
-/// Whether a set of all solids is meant to hold all. It is not if it is the set of a region, or if it holds
-/// the cells behind a surface of a mesh with one layer.
+/// Whether a set that contains all solids is meant to contain all of them. It is not
+/// - if it is the set of a region;
+/// - if it contains the cells behind a surface, as in a mesh with one layer.
 bool is_of_all(const Deck& deck, const DeckSet& set)
 {
     if (same_word(set.name, "all") || same_word(set.name, "eall")) return true;

@@ -45,10 +45,12 @@ struct FacetFile {
 /// | .vtu | text, base64 and appended, compressed by zlib | all one |
 /// | .mesh | Medit, text | a reference number |
 /// | .exo .e | Exodus: netCDF's classic formats | a block; a set |
+/// | .k .key .dyn | LS-DYNA keyword decks | a part; a set |
+/// | .med | MED of Salome, if libmedC is installed | a family of cells; a group |
 ///
 /// Shells of one region in the same sets have one label; so do sides of solids between the same regions in
 /// the same surfaces. Higher-order elements are reduced to their corners. Unknown content is an error, never
-/// guessed. Other cells are counted in the notes.
+/// guessed. Known elements that are neither shells nor solids are ignored, and counted in the notes.
 /// @throw InvalidInput  "io.no_file", "io.not_a_file", "io.empty_file", "io.unknown_ending", "io.no_faces",
 ///                      "io.unreadable" (names the line or byte, what was expected and what was found).
 /// @note  Linear time, apart from sorting sparse node numbers and splitting non-convex polygons; memory at

@@ -42,7 +42,7 @@ using enum DeckShape;
 using mesh::MeshView;
 
 /// A shape in MED, and for each MED node its index in the order of DeckShape. In MED the nodes of a solid's
-/// base run the other way round: counter-clockwise seen from outside.
+/// base are listed in the opposite direction: counter-clockwise seen from outside.
 struct MedShape {
     DeckShape shape;
     med_geometry_type type;

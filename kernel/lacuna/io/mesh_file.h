@@ -125,11 +125,11 @@ void write_parts(const Format& format, std::span<const mesh::LayeredPart> parts,
 /// format than the deck's contains nodes, elements, regions and sets; the log lists omitted content.
 ///
 /// Exodus has a block for each region and shape; sets of nodes, elements and sides; and number maps. In .msh,
-/// each region is a physical group, and so is each set of elements that have no region; with `all_groups`,
-/// every element set is. In .vtk and .vtu, elements that are in the same region and sets form an entity. Cell
-/// arrays hold the numbers of entity, region and cell; a point array holds the node numbers. For each set and
-/// region, an array of the whole file lists its entities, under its name. Node sets are such arrays too:
-/// their names start with "nodes:", and they list point indices from 0.
+/// a physical group is written for each region, and for each set of elements without a region; with
+/// `all_groups`, for every element set. In .vtk and .vtu, elements that are in the same region and sets form
+/// an entity. Cell arrays hold the numbers of entity, region and cell; a point array holds the node numbers.
+/// For each set and region, an array of the whole file lists its entities, under its name. Node sets are such
+/// arrays too: their names start with "nodes:", and they list point indices from 0.
 /// @throw InvalidInput "io.no_such_element"  the format lacks an element type, or needs middle nodes that are
 ///                     missing; "io.no_folder" and others as `WholeFile`.
 /// @throw BackendError  as `WholeFile`.

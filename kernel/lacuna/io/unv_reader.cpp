@@ -119,8 +119,8 @@ private:
                dataset == 2412 || group != std::end(kGroupDatasets);
     }
 
-    /// Read coordinate frames, of which some rotate or shift coordinates. The dataset has a part and its
-    /// name, then for each frame a label, a name and four rows.
+    /// Read coordinate frames, and find those that rotate or shift coordinates. The dataset has a part and
+    /// its name, then for each frame a label, a name and four rows.
     void read_frames()
     {
         if (!more_lines() || !more_lines()) return;

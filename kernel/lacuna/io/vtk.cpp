@@ -21,7 +21,8 @@ namespace {
 
 using mesh::MeshView;
 
-/// The index in a cell of VTK's node `k`. In VTK's wedges the triangle 0-1-2 faces away from 3-4-5.
+/// The position of VTK's node `k` in the order of DeckShape. In VTK's wedges the triangle 0-1-2 faces away
+/// from 3-4-5.
 std::size_t place_of_node(DeckShape shape, std::size_t k)
 {
     constexpr std::array<std::size_t, 6> kWedge{0, 2, 1, 3, 5, 4};

@@ -195,7 +195,7 @@ private:
     {
         Array array{vtk_type(tag["type"]), tag["format"], {}, 0, cursor_.last()};
         if (!tag.empty) {
-            // the text contains no '<': an inner tag such as <InformationKey> ends it
+            // The text ends at the next tag, even an inner one such as <InformationKey>.
             array.text = cursor_.rest().substr(0, cursor_.rest().find('<'));
         }
         if (section_ == "FieldData" && tag["type"] == "Int32") groups_.push_back(tag["Name"]);

@@ -322,8 +322,8 @@ void WholeFile::publish_unnamed()
     if (link_as(name_)) return;
     if (errno != EEXIST) fail(errno);
     // Linking does not replace an existing file, but renaming does. So the file has a temporary name during
-    // two system calls. A temporary file without a lock is abandoned. Process numbers would not show this,
-    // because they repeat in containers.
+    // two system calls. Its lock shows that it is not abandoned. The number of its process would not show
+    // this, because containers reuse process numbers.
     ::flock(descriptor_, LOCK_EX | LOCK_NB);
     const std::string prefix = replacing_prefix(name_);
     remove_left_over(prefix, [](const LeftOver& file) { return is_abandoned(file.folder, file.name); });

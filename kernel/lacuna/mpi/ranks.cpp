@@ -19,7 +19,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// MPI waits in a busy loop, which takes a core from working processes, so requests are polled with pauses.
+// Requests are polled with pauses, because MPI itself waits in a busy loop, which takes a core from working
+// processes.
 constexpr std::chrono::microseconds kShortest = 20us,
                                     kLongest = 2ms; // short compared with a task, which takes 0.1 s or more
 

@@ -17,7 +17,7 @@ struct Place {
 };
 Place place_of_process();
 
-/// Bytes sent by this process, counted once for each receiver.
+/// Messages and bytes sent by this process, counted once for each receiver.
 struct Traffic {
     std::size_t messages = 0;
     std::uint64_t bytes = 0;

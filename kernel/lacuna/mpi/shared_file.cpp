@@ -14,7 +14,8 @@ class File : public SharedFile {
 public:
     File(const std::string& path, std::string name) : name_(std::move(name))
     {
-        // Not collective: if one process cannot open the file, the others need not wait for it.
+        // Each process opens the file on its own (MPI_COMM_SELF). If one process cannot open it, the others
+        // need not wait.
         check(MPI_File_open(MPI_COMM_SELF, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_),
               "every process must see the folder");
     }

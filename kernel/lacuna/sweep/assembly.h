@@ -135,11 +135,12 @@ struct SweptAssembly {
 
 /// Sweep several sealed volumes with common quads on shared faces.
 ///
-/// First, one interval assignment over the whole assembly places the nodes of shared edges. The `layers` of
-/// one volume therefore also apply to the volumes beside it. Then volumes are meshed one after the other.
-/// Each volume keeps its neighbours' meshes on shared faces, node for node. A volume that cannot keep them is
-/// moved to the start of the order. A void face with the same rim as a neighbour's given face is taken to be
-/// that face.
+/// First, one interval assignment over the whole assembly places the nodes of shared edges. Volumes with a
+/// common side line get equal numbers of layers, so the `layers` of one volume also apply to its neighbours.
+/// Then volumes are meshed one after the other. Each volume keeps the meshes of its neighbours on shared
+/// faces, node for node. If a volume cannot keep these meshes, it is moved to the start of the order, and all
+/// volumes are meshed again. A void face with the same rim as a neighbour's given face counts as the same
+/// face.
 ///
 /// Faces that are shared in part are first split along each other's rims. `shared` and the faces of the parts
 /// then refer to the split volumes, in which the members' own faces come first.

@@ -141,7 +141,7 @@ private:
                                             spread_between(ends, static_cast<std::size_t>(count)));
         }
         std::vector<double> at = counts_.spread(e, count);
-        // If one of the members requires a spacing of layers, use it.
+        // If the edge is a side line of a member that requires a spacing of its layers, use this spacing.
         if (const auto lines = side_lines_.find(set); lines != side_lines_.end())
             for (const auto& [m, side] : lines->second) {
                 const bool by_levels = std::cmp_equal(counts_.heights()[m].size(), count);

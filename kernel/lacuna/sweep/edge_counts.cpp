@@ -29,12 +29,13 @@ using namespace topology;
 
 namespace {
 
-/// An interval request for part of a rim does not apply to an edge of which it covers less than this share.
+/// Tolerance for shares of an edge's length. An interval request does not apply to an edge of which it covers
+/// less than this share. Sides whose lengths differ by less count as equally long.
 constexpr double kInset = 1e-3;
 /// Number of places along an edge at which the size is sampled. Heuristic.
 constexpr std::size_t kSizeSamples = 128;
 /// Maximum number of rounds that make the number of sides of ends even. Each round adds a side to one class;
-/// families of blocks need far fewer.
+/// assemblies of blocks need far fewer.
 constexpr int kRounds = 64;
 
 /// Whether rows of boundary layers have the same heights.

@@ -14,9 +14,9 @@ using namespace topology;
 
 namespace {
 
-/// If the normals of two facets differ by more than 60° (a cosine below this), the facets are adjacent and
-/// neither covers the other. Coarse facets of a curved face differ from fine ones by about 30°. With a lower
-/// value, adjacent faces would count as overlapping. Not measured.
+/// If the normals of two facets differ by more than 60° (a cosine below this), the facets are taken to be
+/// adjacent, and neither covers the other. Coarse facets of a curved face differ from fine ones by about 30°.
+/// With a lower value, adjacent faces would count as overlapping. Not measured.
 constexpr double kOver = 0.5;
 /// Number of pairs of facets between two checks for cancellation.
 constexpr std::size_t kLook = 1 << 16;

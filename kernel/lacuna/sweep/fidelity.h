@@ -34,8 +34,8 @@ struct FaceFidelity {
     int tag = 0;        ///< as shown to the user; void faces have tags of their own
     bool made_void = false;
     std::size_t quads = 0; ///< number of quads of the skin on the face
-    /// The larger of the distances from the quads to the face and from the face to its quads [model length].
-    /// For a face without quads, its width: twice its area divided by the length of its rim.
+    /// The largest distance from the quads to the face or from the face to the quads [model length]. If the
+    /// face has no quads: the width of the face, that is, twice its area divided by the length of its rim.
     double max_distance = 0;
     double mean_distance = 0;  ///< mean over the area, the larger of both directions [model length]
     Vec3 place = Vec3::Zero(); ///< place of the maximum distance
@@ -81,8 +81,8 @@ struct FidelityOptions {
 /// omitted face, a quad on a wrong face and a fold even if no distance shows them.
 /// @param faces   face of each patch of the mesh.
 /// @param kept    faces whose own quads are kept; they are exact and not compared.
-/// @param volume_of_mesh  of the hexahedra, as measured already [model length³].
-/// @param layers  generator of the nodes of a mesh that does not hold them; null: it holds them.
+/// @param volume_of_mesh  volume of the cells, which the caller has measured [model length³].
+/// @param layers  generator of the nodes; null: the mesh stores its nodes.
 /// @throw Cancelled
 /// @note  Deterministic for any thread count. O((quads of the skin + facets) log).
 Fidelity compare(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
@@ -100,8 +100,8 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::TetPart& mesh,
 /// the allowed distance. Empty if no face exceeds it.
 std::optional<Message> misfit(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
 
-/// Check the total volume. The distance check accepts straight sides across a bend of 90°. The volume shows
-/// the error of such sides.
+/// Check the total volume. This check finds straight sides across a bend of 90°, which the distance check
+/// accepts.
 /// @throw NotSweepable "sweep.deviation"  the mesh's volume differs from the sealed volume by more than a
 ///         fifth.
 void require_volume(const Fidelity& fidelity, int layers);

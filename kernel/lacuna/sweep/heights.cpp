@@ -11,8 +11,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// The exponent of the bias for the height of layer `layer`: 0 gives the height 1, and 1 gives the bias
-/// itself.
+/// The exponent e of a layer's relative height, which is bias^e.
 double exponent(const LayerSpec& spec, int layer)
 {
     if (spec.spacing == Spacing::geometric) {

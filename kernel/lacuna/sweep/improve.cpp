@@ -24,15 +24,16 @@ constexpr double kLeastEpsilon = 1e-3;
 /// limit the time spent on cells that cannot be unfolded. Not measured.
 constexpr int kUntanglings = 40;
 constexpr int kPatience = 4;
-/// While untangling, a round counts as a gain if the total shortfall decreases by at least this share.
+/// While untangling, a round also counts as a gain if `RegionQuality::lacking` decreases by more than this
+/// share.
 constexpr double kGain = 0.01;
 /// Exponent k in each round of the second stage. With low values all poor corners have weight, with high
 /// values only the worst ones.
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 /// Weight of the shape energy in the second stage: enough to keep lengths and to prevent folds.
 constexpr double kShapeShare = 1e-3;
-/// A result is kept only if the minimum scaled Jacobian rises by more than this, or if the total shortfall
-/// decreases by more than this share.
+/// A result is better if the minimum scaled Jacobian rises by more than this. It is also better if the
+/// minimum does not fall and `RegionQuality::lacking` decreases by more than this share.
 constexpr double kWorthIt = 1e-4;
 /// Largest decrease of the mean scaled Jacobian that is accepted for a higher minimum; part of the contract
 /// of `improve()`.
@@ -99,8 +100,7 @@ private:
         return std::chrono::duration<double>(now - *options_.spent->start).count() > options_.seconds;
     }
 
-    /// Whether a region is better than before: its minimum is higher or, with the same minimum, its shortfall
-    /// is smaller.
+    /// Whether a region is better than before; see `kWorthIt`.
     static bool is_better(const RegionQuality& found, const RegionQuality& before)
     {
         if (found.least > before.least + kWorthIt) return true;
@@ -160,7 +160,7 @@ private:
         return places;
     }
 
-    /// Keep `x` if it is better.
+    /// Replace the best positions by `x` if `x` is better and its mean quality is at least `mean_floor`.
     void keep(const Eigen::VectorXd& x, double mean_floor)
     {
         std::vector<Vec3> places = places_at(x);
@@ -183,8 +183,8 @@ private:
                                                                  0.04 * determinant * determinant);
             const double before = best_quality_.least;
             descend(x, -1);
-            // The worst cell may be the last to unfold. A smaller total shortfall therefore counts as a gain
-            // too.
+            // The worst cell may be the last to unfold. Progress of the other cells therefore counts as a
+            // gain too.
             const double lacking = measure(region_, places_at(x), context_).lacking;
             const bool gain = best_quality_.least > before + kWorthIt ||
                               lacking < least_lacking * (1 - kGain);

@@ -76,17 +76,18 @@ struct Improved {
 ///
 /// There are two stages. Each minimises an energy over the poor cells and their neighbours by L-BFGS:
 /// 1. While a Jacobian is not positive: foldover-free maps (Garanzha et al. 2021). The energy consists of the
-///    terms tr(JᵀJ)/χ^⅔ and (1 + D²)/χ at the eight corners of each cell, where D is the determinant of J and
-///    χ = (D + √(ε² + D²))/2. ε decreases as the smallest determinant grows. The reference shape of a cell is
-///    a box with the cell's own mean edge lengths, so that thin layers stay thin.
+///    terms tr(JᵀJ)/χ^⅔ and (1 + D²)/χ at the eight corners of each cell. J contains the three edges at the
+///    corner, relative to the edges of the cell's reference box; D is the determinant of J, and χ = (D + √(ε²
+///    + D²))/2. The reference box has the cell's own mean edge lengths, so that thin layers stay thin. From
+///    round to round, the regularisation ε is reduced while the smallest determinant grows.
 /// 2. Then the sum of exp(-k s) over the scaled Jacobians s of the corners, with increasing k. The worst
 ///    corners have the largest terms. A share of the first energy is added: it keeps the lengths of the edges
 ///    and prevents folding.
 ///
 /// @post  the minimum scaled Jacobian is not smaller than before. If no cell was folded, the mean decreases
-///         by at most 0.01. If nothing improves, no node moves. Each cell is judged by its distance from the
-///         quality that its fixed nodes allow, so a cell that cannot improve does not stop the improvement of
-///         others. Sliding nodes lie on their surfaces.
+///         by at most 0.01. If nothing improves, no node moves. Each cell is judged against the best quality
+///         that its fixed nodes allow, so a cell that cannot improve does not stop the improvement of others.
+///         Sliding nodes lie on their surfaces.
 /// @throw InvalidInput  an option that `check()` refuses.
 /// @note  Deterministic for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
 Improved improve(mesh::HexMesh mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},

@@ -31,7 +31,7 @@ struct Layer {
 };
 using Layers = std::array<Layer, HarmonicSpread::kFields>;
 
-/// The coordinates with which the columns are multiplied.
+/// A node's coordinates, arranged as factors of the three `Columns` of a layer's matrix.
 struct Factors {
     Four first, second, third;
 
@@ -44,8 +44,8 @@ struct Factors {
     }
 };
 
-/// The residual of node `i`. Residuals are stored in another order than nodes, so that of a later node is
-/// prefetched.
+/// The residual of node `i`. The residual of a later node is prefetched, because residuals are not stored in
+/// the order of the nodes.
 LACUNA_INLINE const double* residual_of(const HarmonicSpread::Fields* residuals, std::size_t i,
                                         std::size_t end)
 {

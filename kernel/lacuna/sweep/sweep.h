@@ -41,8 +41,7 @@ struct LayerSpec {
     /// (both_ends).
     double bias = 1;
     Spacing spacing = Spacing::geometric;
-    /// Heights instead of a count: increasing numbers in (0, 1]; the last one is 1 up to the rounding of
-    /// sums.
+    /// Heights instead of a count: increasing numbers in (0, 1]; the last one is 1 within rounding errors.
     std::vector<double> heights;
 };
 
@@ -75,8 +74,8 @@ struct Beside {
     std::set<FaceId> between{};
     /// Faces with quads copied from a neighbour. These quads are kept whatever the option `quads` is.
     std::set<FaceId> handed{};
-    /// Whether the volume itself has given meshes, as far as known. Errors may then suggest to load it
-    /// without them.
+    /// Whether the volume itself may have given meshes; true if unknown. If so, errors may suggest to load
+    /// the volume without its meshes.
     bool own_mesh = true;
 };
 
@@ -97,8 +96,8 @@ struct SweepOptions {
     LayerSpec layers;
     surface::SizeField size; ///< null: `surface::default_size()`, smaller in narrow places; see `kDefaultGap`
     int curvature = 12;      ///< least number of sides for a full turn, >= 0; 0: the size alone decides
-    /// If straight sides on bends change the mesh's volume by more than this share, bends get more sides as
-    /// long as this helps [0, 1). With 0, nothing is added.
+    /// Allowed volume error because of straight sides on bends, as a share of the volume [0, 1). If the error
+    /// is larger, bends get more sides as long as these reduce it. 0: no sides are added.
     double volume_share = 0.02;
     /// Minimum number of quads across a narrow place of the source, >= 0; 0: no minimum, or 3 if no size is
     /// given.
@@ -113,7 +112,7 @@ struct SweepOptions {
     Fallback fallback = Fallback::none;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; only with `quads` automatic or paved
     surface::SizeField row_height; ///< height of these rows; null: the size
-    /// Thin rows of cells along walls and ends. A face may be in one table only.
+    /// Tables of thin rows of cells along walls and ends. A face may be in one table only.
     std::vector<surface::BoundaryLayer> boundary_layers;
     std::vector<surface::Interval> intervals; ///< numbers of sides
     /// Pairs of faces that get the same mesh. Applied by `sweep_assembly()`, also for a single volume.
@@ -151,8 +150,8 @@ struct Swept {
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
     std::vector<std::string> report; ///< a line for each stage: seeds, quads, walls, target, layers, shape
-    /// The lines of the report on default sizes and numbers of layers, and on poor cells that result from
-    /// them. They are also logged once; in an assembly, the caller that sweeps the whole logs them.
+    /// Lines of the report on default sizes, default numbers of layers, and the poor cells that result from
+    /// these defaults. `sweep()` also logs the lines; for volumes of an assembly, `sweep_assembly()` does.
     std::vector<std::string> defaults;
     std::vector<std::string> notes;    ///< lines on a changed volume; logged like `defaults`, after "note: "
     std::vector<std::string> not_kept; ///< the lines of the report on given meshes that are not kept
@@ -165,19 +164,19 @@ struct Swept {
 ///
 /// Given meshes of faces are kept, node for node: the source's quads, rows of quads on walls, the target's
 /// quads if they are connected like the source's, and the nodes of the rims of all these. The report counts
-/// them. Given triangles become cells too on a face with given quads and, with `wedges`, on a face that keeps
-/// its nodes. Other triangles only define the shape of their face, whose inside is remeshed. With an explicit
-/// option such as `Quads::paved`, all faces are remeshed.
+/// the kept nodes. Given triangles become cells too on a face with given quads and, with `wedges`, on a face
+/// that keeps its nodes. Other triangles only define the shape of their face, whose inside is remeshed. With
+/// an explicit option such as `Quads::paved`, all faces are remeshed.
 ///
 /// Edges between the faces of an end, and edges around or up the walls, become chains of mesh edges. The
-/// sweep runs from source to target. If that gives poor cells, it runs from target to source, or the quads
-/// are laid out between both outlines. The report states the choice, and `mesh` counts its layers from the
-/// end where the sweep starts.
+/// sweep runs from source to target. If that gives poor cells, a sweep from target to source is tried, and a
+/// sweep with the source's quads laid out in the mean of both ends' outlines. The report states the choice,
+/// and `mesh` counts its layers from the end where the sweep starts.
 /// @throw InvalidInput   as `check()`; or a size is not a positive length, or there are too many cells to
 ///         number.
 /// @throw NotSweepable   names the face, wall or cells, the expected and the actual value, and a remedy. With
 ///         boundary layers, as `surface::rim_rows()`, `seed_source()` and `mesh_source()`, and
-///         "sweep.layers_thickness"  rows cannot have their thickness.
+///         "sweep.layers_thickness"  the rows cannot be placed at the requested thickness.
 /// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive, its skin on the
 ///        sealed skin within `max_deviation`.
 Swept sweep(const topology::OpenVolume& volume, const SweepOptions& options, const RunContext& context = {});

@@ -57,7 +57,7 @@ io::MeshDeckOptions deck_options(const WriteRequest& request, const Format& form
     return {format.deck, request.element, request.first_node, request.first_cell, material};
 }
 
-/// An option that was given but that the format does not have; null: none.
+/// The name of a requested option that the format does not have; null: there is none.
 const char* idle_option(const Format& format, const WriteRequest& request)
 {
     const bool joins = !request.with.empty(), numbered = format.is_numbered || joins;
@@ -195,7 +195,7 @@ void write_mixed(const fill::FilledParts& mesh, const WriteRequest& request, con
     io::write_deck(fill::whole_deck(mesh, deck, request.interfaces, context), format, path, context, options);
 }
 
-/// Note sets of nodes that files written a layer at a time do not hold.
+/// Log a note on the sets of nodes that are missing in files written a layer at a time.
 void note_columns(const std::vector<io::ColumnSet>& columns, const io::OutputPath& path,
                   const RunContext& context)
 {

@@ -12,9 +12,12 @@ namespace lacuna::cad {
 /// The most exact shape that is known for an edge, as a function of its relative arc length (the share).
 class EdgeShape {
 public:
-    /// The shape is the exact curve of the edge, if there is one. Otherwise it is a straight line if the
-    /// points of the edge are collinear; else, for a void edge that is not a moved polyline, a smooth curve
-    /// through its points; else the polyline.
+    /// The shape is the first of these that applies:
+    /// 1. the exact curve of the edge, if there is one;
+    /// 2. a straight line, if the points of the edge are collinear;
+    /// 3. for a void edge, a smooth curve through its points, unless the edge is a moved copy of a polyline
+    ///    with kinks;
+    /// 4. the polyline through the points of the edge.
     EdgeShape(const topology::Model& model, EdgeId edge);
 
     /// Points at shares in [0, 1] of the length, counted from the edge's `from` to its `to`.

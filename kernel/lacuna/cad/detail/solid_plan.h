@@ -16,8 +16,8 @@ struct SolidSources {
     std::vector<const CadSource*> order;
     std::vector<cad_protocol::SolidSource> wanted; ///< one for each model
 };
-/// Load all CAD models of a volume into one process. Until then, several processes may hold them, and some
-/// of these processes may have ended.
+/// Load all CAD models of a volume into one process. Before the call, several processes may hold the models,
+/// and some of these processes may have ended.
 /// @throw BackendError  a file has changed since it was loaded, or cannot be read. Cancelled.
 SolidSources sources_of(const topology::Model& model, const RunContext& context);
 

@@ -37,9 +37,9 @@ using SurfaceFunction =
 
 /// Default limit on the intervals between the interpolated points of a spline: enough for ten turns.
 inline constexpr std::size_t kMostIntervals = 512;
-/// Interpolate a function at equidistant parameters. The number of intervals is doubled until, half way
-/// between the points, the spline deviates by at most `precision`, or until there are `most`. A straight line
-/// gets degree 1.
+/// Interpolate a function at equidistant parameters. The number of intervals is doubled until the spline
+/// deviates by at most `precision` half way between the points, or until there are `most` intervals. A
+/// straight line gets degree 1.
 SplineCurveData approximate(const CurveFunction& function, double precision,
                             std::size_t most = kMostIntervals);
 SplineSurfaceData approximate(const SurfaceFunction& function, double precision,

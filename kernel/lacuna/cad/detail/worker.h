@@ -79,7 +79,7 @@ public:
     /// Let the process free a model or a solid, now or before the next request.
     void release(std::uint64_t handle) noexcept;
 
-    /// Whether the process is running, as far as is known.
+    /// Whether the process is running. If it is busy with a request, it counts as running.
     [[nodiscard]] bool lives();
     [[nodiscard]] const cad_protocol::Hello& hello() const { return hello_; }
     [[nodiscard]] pid_t pid() const { return pid_; }

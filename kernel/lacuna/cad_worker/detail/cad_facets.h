@@ -39,8 +39,8 @@ struct FacetOptions {
 std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo& face,
                                          const FacetOptions& options, Index first_added);
 
-/// The kind of a surface: "plane", "cylinder", "cone", "sphere", "torus", "bspline" or "surface". It is the
-/// type that Gmsh reports or, if Gmsh reports none, the type that the principal curvatures show.
+/// The kind of a surface: "plane", "cylinder", "cone", "sphere", "torus", "bspline" or "surface". The kind is
+/// the type that Gmsh reports. If Gmsh reports no type, the principal curvatures determine the kind.
 std::string kind_of_face(int tag, const ParameterBox& box);
 
 } // namespace lacuna::cad_worker

@@ -7,9 +7,10 @@
 
 namespace lacuna::cad_worker {
 
-/// Factors, between 1 and a limit, by which to increase the number of points on each edge. Below the limit,
-/// the sag of a segment is then at most a hundredth of its distance from any other edge of the same planar
-/// face. Otherwise the width of a thin ring would vary visibly, because its circles become polygons.
+/// Factors by which to increase the number of points on each edge, from 1 to 8. The factors make the sag of
+/// each segment at most a hundredth of its distance from any other edge of the same planar face, unless a
+/// factor of more than 8 would be needed. Without them, the width of a thin ring would vary visibly, because
+/// its circles become polygons.
 ///
 /// Edges that share a vertex are not compared. Curved faces need no refinement: narrow ones, such as fillets,
 /// are seldom next to the void.

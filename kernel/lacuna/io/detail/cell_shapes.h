@@ -52,11 +52,13 @@ inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int
 }
 
 /// The brick as which a pyramid is written in UNV and Abaqus: its four upper nodes are the apex. UNV has no
-/// pyramid; CalculiX does not know the pyramid of Abaqus, which has none of order 2. The brick of eight nodes
-/// is exactly a pyramid with linear sides, so it fits tetrahedra: in a patch test with CalculiX the stress is
-/// uniform to 1e-12. The brick of twenty nodes fits them if the displacement is linear along the sides of the
-/// base. Equations in the deck enforce this (`abaqus_writer.cpp`): the stress is then uniform to 1e-7;
-/// without them it is 22 % off.
+/// pyramid. Abaqus has a pyramid of order 1 only, and CalculiX does not know this pyramid.
+///
+/// - The displacement of the brick of eight nodes is linear along the sides of the pyramid, so the brick is
+///   compatible with tetrahedra. In a patch test with CalculiX, the stress is uniform to 1e-12.
+/// - The brick of twenty nodes is compatible with tetrahedra of order 2 if the displacement is linear along
+///   the sides of the base. Equations in the deck enforce this (`abaqus_writer.cpp`). The stress is then
+///   uniform to 1e-7; without the equations it is 22 % off.
 ///
 /// @return  the brick of a pyramid; empty for other shapes
 inline std::optional<DeckShape> merged_brick(DeckShape shape)

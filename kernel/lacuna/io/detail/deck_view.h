@@ -16,7 +16,8 @@
 /// folder.
 namespace lacuna::io {
 
-/// Lists of sets. Each list is stored once and identified by its number; list 0 is empty.
+/// Lists of sets. Each list is stored once and identified by its number; list 0 is empty. `extended()`
+/// returns the number of the list that consists of `list` and `set`.
 class SetLists {
 public:
     int extended(int list, int set);

@@ -38,7 +38,8 @@ void each_cell(const mesh::MeshView::Block& block, std::size_t begin, std::size_
     }
 }
 
-/// Append text and all points. `put(index, tag, point, out)` writes each point in at most `bytes` bytes.
+/// A section that consists of `text` and all points. `put(index, tag, point, out)` writes each point in at
+/// most `bytes` bytes.
 template <class Put>
 Section section_of_points(std::string text, const View& view, std::size_t bytes, Put put)
 {
@@ -53,8 +54,8 @@ Section section_of_points(std::string text, const View& view, std::size_t bytes,
                 return out;
             }};
 }
-/// Append all cells of a block. `put(index in the block, tag, region, nodes, out)` writes each cell in at
-/// most `bytes` bytes.
+/// A section that consists of all cells of a block. `put(index in the block, tag, region, nodes, out)` writes
+/// each cell in at most `bytes` bytes.
 template <class Put>
 Section section_of_cells(const View& view, std::size_t block, std::size_t bytes, Put put)
 {
@@ -73,7 +74,8 @@ Section section_of_cells(const View& view, std::size_t block, std::size_t bytes,
             return out;
         }};
 }
-/// Append text and some cells of a block. `put(tag, nodes, out)` writes each cell in at most `bytes` bytes.
+/// A section that consists of `text` and some cells of a block. `put(tag, nodes, out)` writes each cell in at
+/// most `bytes` bytes.
 template <class Put>
 Section section_of_cells(std::string text, const View& view, std::size_t block, mesh::Ranges cells,
                          std::size_t bytes, Put put)
@@ -93,7 +95,7 @@ Section section_of_cells(std::string text, const View& view, std::size_t block, 
 /// The cells of a block by their region.
 std::map<Index, mesh::Ranges> cells_by_region(const mesh::MeshView::Block& block);
 
-/// Append text and all members of a set. `put(index, tag, out)` writes each of them.
+/// A section that consists of `text` and all members of a set. `put(index, tag, out)` writes each member.
 template <class Put>
 Section section_of_members(std::string text, const View& view, std::size_t set, std::size_t bytes, Put put)
 {
@@ -158,7 +160,8 @@ void add_model_cards(Deck& deck, const std::string& cards);
 /// How the exponent of a real number starts: with an E, or only with its sign, as in 1.5-3.
 enum class RealForm { plain, nastran };
 
-/// The nearest real number of at most `width` characters, with a point. @pre width >= 10
+/// Write the text of at most `width` characters, with a decimal point, whose value is nearest to `value`.
+/// @pre width >= 10
 char* put_real(char* out, double value, std::size_t width, RealForm form = RealForm::plain);
 std::string real_text(double value, std::size_t width, RealForm form = RealForm::plain);
 

@@ -31,7 +31,7 @@ inline void add_once(std::vector<std::string>& names, const std::string& name)
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
 
-/// A text for an attribute of an XML file.
+/// Escape a text for an attribute of an XML file.
 inline std::string xml_text(std::string_view text)
 {
     std::string safe;

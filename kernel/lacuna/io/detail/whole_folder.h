@@ -17,9 +17,9 @@ std::vector<std::string> names_in(int folder, const std::string& name);
 
 /// A folder that appears completely or not at all. Its files are written to a hidden folder next to the final
 /// path. Committing renames the hidden folder; without a commit, the destructor removes it. If a folder
-/// exists at the path, it is exchanged with the hidden one in one system call, if the file system supports
-/// that, and then removed. A killed process leaves the hidden folder. Folders above it that do not exist are
-/// made, except below a folder that is held open.
+/// exists at the path, both folders are exchanged in one system call, provided that the file system supports
+/// this, and the old folder is removed. If the process is killed, the hidden folder stays. Missing
+/// folders above it are made, except below a folder that is held open.
 class WholeFolder {
 public:
     /// @param is_own  returns whether a file of this name may be deleted together with an existing folder.

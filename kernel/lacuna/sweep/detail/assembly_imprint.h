@@ -10,7 +10,7 @@
 /// Partially shared faces of volumes. Internal to this folder.
 namespace lacuna::sweep {
 
-/// What `imprint_faces()` did.
+/// Result of `imprint_faces()`.
 struct FaceImprint {
     std::vector<std::string> report; ///< a line for each pair
     /// For each volume: for each new face, the face it is a part of.

@@ -15,10 +15,11 @@ namespace lacuna::sweep {
 
 /// Levels of an assembly: heights at which a layer must end, because an edge runs around the walls there.
 ///
-/// Examples are a pin that stands out of a plate, or a band around the middle of a pin. On a shared wall both
-/// members must have the same rows. Therefore the levels of one member within the wall become levels of the
-/// other one too, the intervals between levels are paired, and paired intervals get equal numbers of layers.
-/// If no member of a connected group has such levels, the group is not constrained.
+/// Examples are a pin that stands out of a plate, or a band around the middle of a pin. On a shared wall,
+/// both members must have the same rows of quads. Therefore each member gets the levels that the other member
+/// has within the wall, and corresponding intervals between levels get equal numbers of layers in both
+/// members. A group of members that are connected by shared walls is not constrained if none of them has
+/// levels.
 class AssemblyLevels {
 public:
     AssemblyLevels(std::span<const AssemblyMember> members, std::span<const SharedFace> shared);

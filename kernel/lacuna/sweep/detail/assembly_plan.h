@@ -22,15 +22,17 @@ struct AssemblyPlan {
 
 /// Numbers of sides for all edges of an assembly (`EdgeCounts`), and the nodes of shared edges.
 ///
-/// Nodes are evenly spaced, except on side lines, where they follow the layers, and where rows of boundary
-/// layers end on an edge, which needs nodes at the rows' heights. Edges of faces shared with an unswept
-/// volume are treated as shared edges. Side lines on such faces, and on walls that are a part of another
-/// member's end, have a node at each vertex.
+/// Nodes are evenly spaced, with two exceptions:
+/// - On side lines, nodes follow the layers.
+/// - Where rows of boundary layers end on an edge, the edge has nodes at the heights of the rows.
+///
+/// Edges of faces shared with an unswept volume are treated as shared edges. Side lines on such faces, and on
+/// walls that are a part of another member's end, have a node at each vertex.
 /// @param beside  the faces shared with volumes that are not swept: index of the member, and its face.
-/// @throw NotSweepable "assembly.layers"  members whose side lines are in one class request different numbers
-///         of layers; "assembly.layers_differ"  rows of two members end on one edge with different heights;
-///         "assembly.layers_rows"  an edge has too few sides for the rows that end on it. The message names
-///         the members and faces.
+/// @throw NotSweepable "assembly.layers"  different numbers of layers are requested for members whose side
+///         lines must have equal numbers of sides; "assembly.layers_differ"  rows of two members end on one
+///         edge with different heights; "assembly.layers_rows"  an edge has too few sides for the rows that
+///         end on it. The message names the members and faces.
 /// @throw InvalidInput "sweep.periodic_given"  the given nodes of an edge and of its image differ.
 AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
                            std::span<const std::pair<std::size_t, FaceId>> beside = {},

@@ -20,7 +20,8 @@ namespace lacuna::sweep {
 /// @param volumes  the members' volumes, to which their `volume` points; changed.
 /// @return  a line of the report for each member whose ends were split.
 /// @throw NotSweepable "surface.not_imprinted"  as `surface::imprint_target()`, or the rims of a shared face
-///         have different points in its two volumes; "sweep.lines_go_round"  lines keep adding others.
+///         have different points in its two volumes; "sweep.lines_go_round"  after 64 rounds, copied lines
+///         still add new lines.
 std::vector<std::string> carry_lines(std::span<const AssemblyMember> members,
                                      std::span<topology::OpenVolume> volumes, const RunContext& context);
 

@@ -17,17 +17,23 @@
 /// Interval assignment over an assembly. Internal to this folder.
 namespace lacuna::sweep {
 
-/// Distribute `count` sides over the intervals between `ends`, vertices of a line as shares of its length:
-/// one side each, then each next side to the interval with the longest sides.
+/// Distribute `count` sides over the intervals of a line. Every interval gets one side; then each further
+/// side goes to the interval whose sides are longest.
+/// @param ends  positions of the vertices between the intervals, as shares of the line's length, from 0 to 1.
+/// @return  positions of the nodes, as shares of the line's length.
 std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count);
 
 /// Numbers of sides of all edges of an assembly's members.
 ///
-/// Edges that need equal numbers of sides form one class: an edge that several members have; an edge of a
-/// source's rim and its image on the target's rim; the side lines of a member; opposite edges of a four-sided
-/// wall. A class gets the requested number of sides; without a request, the largest number that the size
-/// requires for one of its edges. If an end with only shared edges has an odd number of sides, its longest
-/// class gets one more side.
+/// Edges that need equal numbers of sides form one class:
+/// - the copies of an edge that several members have;
+/// - an edge of a source's rim and its image on the target's rim;
+/// - the side lines of a member;
+/// - opposite edges of a four-sided wall.
+///
+/// A class gets the requested number of sides or, without a request, the largest number that the size
+/// requires for one of its edges. If an end with only shared edges has an odd number of sides, the class
+/// with the most sides gets one more.
 class EdgeCounts {
 public:
     using Line = std::vector<topology::EdgeUse>;
@@ -50,8 +56,9 @@ public:
 
     /// Number of sides of an edge.
     [[nodiscard]] int sides_of(std::size_t e) const { return count_.at(class_of(e)); }
-    /// Whether an edge's nodes are planned: see `SameEdges::is_planned()`. The edges of side lines of several
-    /// edges are not, and the rims of ends that have as many sides as a planned edge around the walls are.
+    /// Whether `plan_assembly()` places the nodes of an edge: as `SameEdges::is_planned()`, with two
+    /// exceptions. Edges are not planned if their side line consists of several edges. Rims of ends are
+    /// planned too if they are in one class with a planned edge that runs around the walls.
     [[nodiscard]] bool is_planned(std::size_t e) const { return planned_[e]; }
     /// Whether an edge is on the rim of an end or on a side line. The nodes of the other edges of walls
     /// follow from these.
@@ -70,8 +77,10 @@ public:
     /// For each member: see `AssemblyLevels::heights()`.
     [[nodiscard]] const std::vector<std::vector<double>>& heights() const { return heights_; }
 
-    /// For a set of same edges: the facets that it follows, the rows of boundary layers that end on it in the
-    /// direction of its first edge, and the edge with a requested bias and that bias. Null: there are none.
+    /// Properties of a set of same edges; null: the set does not have them.
+    /// - `followed()`: the vertices that become nodes because the edge's sides follow facets
+    /// - `rows()`: the rows of boundary layers that end at the start and at the end of the set's first edge
+    /// - `bias()`: an edge of the set with a requested bias, and that bias
     [[nodiscard]] const Followed* followed(std::size_t set) const { return entry(followed_, set); }
     [[nodiscard]] const std::array<RowsHere, 2>* rows(std::size_t set) const { return entry(rows_, set); }
     [[nodiscard]] const std::pair<std::size_t, double>* bias(std::size_t set) const

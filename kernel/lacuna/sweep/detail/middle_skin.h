@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-/// Data shared by the steps that place middle nodes. The bend of a side is the vector from its straight
-/// midpoint to its middle node. Internal to this folder.
+/// Data shared by the steps that place middle nodes. Bend of a side: the vector from its straight midpoint to
+/// its middle node. Internal to this folder.
 namespace lacuna::sweep {
 
 /// State of a middle node.

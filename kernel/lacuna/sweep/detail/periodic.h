@@ -25,9 +25,13 @@ struct PeriodicFaces {
 
 /// The pairs of faces for which members request the same mesh, each with the edges around both faces.
 ///
-/// The motion is the given one. Without one, it is a translation, or else the rotation by the smallest angle.
-/// A rotation takes the centre of the first side's edges to that of the second side, its mean outward normal
-/// to the mean inward normal there, and edges to edges. A fit to all ends of edges refines it.
+/// If no motion is given, a translation is tried first, then rotations. Of the rotations that fit, the one
+/// with the smallest angle is used. A rotation fits if it moves
+/// - the centre of the first side's edges to the centre of the second side's edges,
+/// - the mean outward normal of the first side to the mean inward normal of the second side,
+/// - every edge of the first side to an edge of the second side.
+///
+/// The motion is then refined by a fit to the ends and centres of all edges.
 /// @param grid  from `grid_of()`: translations are rounded to it.
 /// @throw InvalidInput "sweep.periodic_faces"  one side of a pair names no swept face, or no motion moves one
 ///         side onto the other; names both sides and the misfit.

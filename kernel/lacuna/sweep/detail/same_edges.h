@@ -23,8 +23,8 @@ namespace lacuna::sweep {
 /// represents the set.
 class SameEdges {
 public:
-    /// Which given nodes of an edge are kept: none, the rim nodes of a face whose mesh is only its shape, or
-    /// the nodes of quads.
+    /// Which given nodes of an edge are kept: none; the rim nodes of a face whose given mesh only defines its
+    /// shape; or the nodes of given quads.
     enum class Kept : std::uint8_t { no, rim, quads };
 
     /// @param beside  faces shared with volumes that are not swept: index of the member, and its face.
@@ -52,8 +52,11 @@ public:
     [[nodiscard]] std::size_t set_of(std::size_t e) const { return set_[e]; }
     /// Whether an edge runs in the direction of the first edge of its set.
     [[nodiscard]] bool runs_along(std::size_t e) const;
-    /// Whether an edge's nodes are planned, because other members have the edge too, it is on a periodic face
-    /// or beside an unswept volume, or it ends at a cusp.
+    /// Whether `plan_assembly()` must place the nodes of an edge, for one of these reasons:
+    /// - other members have the edge too;
+    /// - the edge is on a periodic face;
+    /// - the edge is on a face shared with an unswept volume;
+    /// - the edge ends at a cusp.
     [[nodiscard]] bool is_planned(std::size_t e) const { return planned_[e]; }
     /// Whether an edge is on a wall shared with a volume that is not swept, or with an end of another member.
     [[nodiscard]] bool is_beside(std::size_t e) const { return beside_.contains(e); }

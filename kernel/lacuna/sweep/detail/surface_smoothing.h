@@ -28,11 +28,13 @@ void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const
 /// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a reference
 /// mesh.
 ///
-/// Two methods are used; the result of each is kept only as far as it improves the worst quad. Relaxation
-/// moves every node to the weighted mean of its neighbours. The weights reproduce the reference mesh, so that
-/// its grading is kept. All nodes are solved for at once, with the graph Laplacian as preconditioner. Then
-/// each node of a quad that is still poor tries the mean of its neighbours and steps along the surface. It
-/// keeps a move that improves the worst of its own quads.
+/// There are two methods. The result of each is kept only as far as it improves the worst quad.
+/// 1. `relax()` moves every node to the weighted mean of its neighbours. The weights reproduce the reference
+///    mesh, so that its grading is kept. All nodes are solved for at once, with the graph Laplacian as
+///    preconditioner.
+/// 2. `polish()` tries new positions for each node of a quad that is still poor: the mean of the node's
+///    neighbours, and steps along the surface. A move is kept if it improves the worst of the quads around
+///    the node.
 class SurfaceSmoother {
 public:
     /// All arguments must outlive the smoother. @param spread  with the fixed nodes of the smoothing.

@@ -31,7 +31,8 @@ struct LayerNodes {
 ///
 /// - Tier 1: if affine motions relate the rims exactly, these place the layers.
 /// - Tier 2: otherwise, a two-sided least-squares affine fit with pseudo-normals (Roca and Sarrate 2010).
-/// - Tier 3: the remaining distance of the rim is spread harmonically over the source mesh (factored once).
+/// - Tier 3: the distances of the rim nodes from this fit are spread harmonically over the inside of the
+///   source mesh. The Laplacian is factored once.
 ///
 /// The placements from both ends are blended by height. Layers are placed in parallel. The Laplacian has
 /// finite-volume weights: equal weights folded every graded mesh tried, and were no better on uniform ones.

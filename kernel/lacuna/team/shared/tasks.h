@@ -29,8 +29,8 @@ struct LayeredFile {
     std::string unit{};                     ///< see `io::MeshFileOptions::unit`
 };
 
-/// Write a mesh whose nodes are computed during writing. The ending of the path determines the format. A
-/// process group, if there is one, shares the work.
+/// Write a mesh whose nodes are computed during writing. The file extension determines the format. A process
+/// group, if there is one, shares the work.
 /// @param plan  computes the nodes of each layer.
 /// @pre  the format is streamed
 /// @throw  as `io::write_mesh()`; TeamFailed

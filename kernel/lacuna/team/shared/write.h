@@ -20,8 +20,8 @@ struct WriteRequest {
     std::optional<double> version; ///< of MSH: 4.1, the default, or 2.2
     std::optional<bool> binary;    ///< default: true
     std::optional<bool> all_groups;
-    /// Cell fields. Default: the scaled Jacobian; none in MSH 2.2, because some readers that know no other
-    /// version (meshio 5) refuse files with $ElementData.
+    /// Cell fields. Default: the scaled Jacobian; in MSH 2.2 none, because some readers of this version
+    /// (meshio 5) refuse files with $ElementData.
     std::optional<std::vector<quality::Metric>> quality;
     std::optional<bool> renumber;  ///< of several decks that are joined
     std::optional<int> partitions; ///< 0: one for each process
@@ -35,8 +35,8 @@ struct WriteRequest {
     std::vector<std::string> without{}; ///< parts of these decks that the mesh replaces
 };
 
-/// Write a mesh. The ending of the path determines the format. Nodes that are not stored are computed during
-/// writing where the format allows it, and a process group, if there is one, shares that work.
+/// Write a mesh. The file extension determines the format. If the format allows it, nodes that are not stored
+/// are computed during writing. A process group, if there is one, shares this work.
 /// @throw InvalidInput "lua.idle_option"  an option that the format or the kind of mesh lacks;
 ///        "lua.no_deck"  a model of `with` was not read from a mesh; "lua.mixed_write", "lua.split_write"  a
 ///        file that cannot hold tetrahedra or cells without thickness. Or the errors of `io::write_mesh()`,
@@ -58,7 +58,7 @@ void require_layered(const WriteRequest& request, const io::OutputPath& path);
 /// Refuse the option `interfaces`, which the mesh of one volume does not have.
 /// @throw InvalidInput "lua.idle_option"
 void refuse_interfaces(const WriteRequest& request);
-/// Whether the mesh of an assembly is written a layer at a time; its parts then need not hold their nodes.
+/// Whether the mesh of an assembly is written a layer at a time. If so, its parts need not store their nodes.
 bool may_be_layered_of_parts(const WriteRequest& request, const io::OutputPath& path);
 
 } // namespace lacuna::team
