@@ -8,26 +8,6 @@
 
 namespace lacuna::healing {
 
-namespace {
-
-/// Divide a quad into two triangles along the diagonal for which the triangles do not fold onto each other.
-/// If that holds for both diagonals or for none, the shorter diagonal is taken.
-std::array<Triangle, 2> halves(const Quad& q, const std::vector<Vec3>& points)
-{
-    const auto at = [&](int i) { return points[static_cast<std::size_t>(q[static_cast<std::size_t>(i)])]; };
-    const auto fold = [&](int a, int b, int c, int d) { // whether the halves on the diagonal a-c fold
-        const Vec3 one = (at(b) - at(a)).cross(at(c) - at(a)), two = (at(c) - at(a)).cross(at(d) - at(a));
-        return one.dot(two) <= 0;
-    };
-    const bool first_folds = fold(0, 1, 2, 3), second_folds = fold(1, 2, 3, 0);
-    const bool first = first_folds == second_folds ? (at(2) - at(0)).norm() <= (at(3) - at(1)).norm()
-                                                   : !first_folds;
-    if (first) return {Triangle{q[0], q[1], q[2]}, Triangle{q[0], q[2], q[3]}};
-    return {Triangle{q[0], q[1], q[3]}, Triangle{q[1], q[2], q[3]}};
-}
-
-} // namespace
-
 void add(AddedFaces& faces, const AddedFace& face)
 {
     FacetSoup& soup = faces.soup;

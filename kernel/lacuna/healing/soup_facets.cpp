@@ -38,25 +38,6 @@ void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>&
     }
 }
 
-/// Split a quad along one of its diagonals: the one for which the worse of both halves has the better shape.
-std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q)
-{
-    const std::array<std::array<Triangle, 2>, 2> choices{
-        {{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}}, {{{q[1], q[2], q[3]}, {q[1], q[3], q[0]}}}}};
-    const Vec3 normal = area_vector(points, choices[0][0]) + area_vector(points, choices[0][1]);
-    std::array<double, 2> worst;
-    for (std::size_t c = 0; c < 2; ++c) {
-        worst[c] = std::numeric_limits<double>::max();
-        for (const Triangle& t : choices[c]) {
-            double sides = 0;
-            for (std::size_t k = 0; k < 3; ++k)
-                sides += (points[index(t[k])] - points[index(t[(k + 1) % 3])]).squaredNorm();
-            worst[c] = std::min(worst[c], area_vector(points, t).dot(normal) / sides);
-        }
-    }
-    return choices[worst[1] > worst[0] ? 1 : 0];
-}
-
 /// @throw InvalidInput  squared areas of facets, also of those as small as a millionth of the diagonal, would
 ///         overflow or underflow.
 void check_size(const Vec3& low, const Vec3& high, double diagonal)

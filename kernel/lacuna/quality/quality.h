@@ -35,17 +35,6 @@ double wedge_scaled_jacobian(std::span<const Vec3, 6> corners);
 /// is linear over the triangle and quadratic along the height; it has nine Bernstein coefficients.
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 6);
 
-/// The scaled Jacobian of a pyramid with the base 0-1-2-3 and the apex 4: the smallest value over the four
-/// corners of the base, at most 1. The value at a corner is the determinant of its three edges, divided by
-/// the product of their lengths and multiplied by √2. A pyramid whose edges are equally long has the scaled
-/// Jacobian 1. Verdict differs: it takes the scaled Jacobian of the tetrahedra at these corners, and 0 for a
-/// folded pyramid.
-double pyramid_scaled_jacobian(std::span<const Vec3, 5> corners);
-
-/// The scaled Jacobian of a tetrahedron, as in Verdict: √2 times the determinant of three edges at a corner,
-/// divided by the largest product of the lengths of the edges at a corner. It is 1 for a regular tetrahedron.
-double tet_scaled_jacobian(std::span<const Vec3, 4> corners);
-
 /// One of the worst cells of a mesh.
 struct WorstCell {
     std::size_t cell = 0; ///< from 0

@@ -11,8 +11,9 @@
 
 namespace lacuna::closure {
 
-/// A face of an end turns from the end's mean normal by less than 70°; this is its cosine. Columns run along
-/// a steeper face, such as a riser between two steps, and cells beside it have no volume.
+/// The normal of a face of an end differs from the end's mean normal by less than 70°; this is the cosine of
+/// 70°. A steeper face, such as a riser between two steps, is nearly parallel to the columns, and cells at
+/// the face would have almost no volume.
 inline constexpr double kFacesEnd = 0.34;
 
 /// Cut pieces, and the number of those whose ends were chosen again.
