@@ -39,8 +39,8 @@ constexpr int kCurveSteps = 8;
 
 // --- twist and scale ---------------------------------------------------------------------------------------
 
-/// A profile as a function of the height: linear, or the user's function, sampled at even heights and
-/// interpolated by cubics.
+/// A profile as a function of the height. A profile of the user is sampled at even heights and interpolated
+/// by cubics.
 std::function<double(double)> sampled(const Along::Profile& profile, double first, const char* name)
 {
     if (!profile.at) {
@@ -290,7 +290,7 @@ Vec3 start_of_turn(const Vec3& point, const Vec3& axis, const Vec3& place)
 
 // --- vectors of single points ------------------------------------------------------------------------------
 
-/// A vector at each point of the source's facets, linear on each facet.
+/// A vector field on the source's facets, given at their corners and linear on each facet.
 struct PointVectors {
     std::vector<Triangle> facets;
     geometry::FacetTree tree;

@@ -123,7 +123,7 @@ std::optional<Reading> without_ends(FlatFilling filled, const RunContext& contex
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
-    // Filling is refused if a new face shares an edge with two others.
+    // Filling throws if a new face shares an edge with two other faces.
     auto filled = unless_refused([&] {
                       return fill_all_loops(model, faces, context);
                   }).value_or(std::nullopt);
@@ -134,7 +134,8 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     if (!reading) return std::nullopt;
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
     if (!reading->guess) reading->guess = untold_face(reading->volume, *reading->closure);
-    if (whole.empty() || whole.front().closure) { // `closure` is set by read_bowl(), which splits faces
+    if (whole.empty() || whole.front().closure) { // `closure` is set if read_bowl() found the reading; its
+                                                  // faces are split
         reading->no_roles = why_no_roles(model, faces, context);
         return reading;
     }
@@ -237,7 +238,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         return seal(model, candidate.roles, context).has_value();
     };
     std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed, context);
-    if (found.empty()) // the likeliest candidates do not seal; less likely ones may
+    if (found.empty()) // the likeliest candidates cannot be sealed; less likely ones may be
         found = voids(model, less_likely(model, faces, kMostTried, seals, context), kMostSealed, context);
     auto flat = fill_flat_loops(model, faces, context);
     const bool dropped = prefer_flat(found, flat, context);

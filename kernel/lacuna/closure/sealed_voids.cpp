@@ -30,8 +30,7 @@ constexpr double kSameSkin = 0.02;
 /// likelier than one with bent faces. A higher value drops more closings with bent faces.
 constexpr double kBentVoid = 0.5;
 
-/// Whether each free loop is filled by one face of its own, so that no void edge is needed and no face has
-/// several loops.
+/// Whether sealing fills each free loop with one face: no void edge is needed, and no face has several loops.
 bool fills_each_loop(const OpenVolume& open, std::size_t loops)
 {
     const Classification found = classify(open);
