@@ -483,8 +483,8 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
     motion.reach = [tree, way, vectors = std::make_shared<const PointVectors>(model, std::move(reach))](
                        const Vec3& place) -> Vec3 {
         const geometry::FacetTree::RayHit hit = tree->first_along(place, way);
-        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way); // at the rim, rounding may make the
-                                                                         // ray miss the face
+        // At the rim, rounding may make the ray miss the face.
+        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way);
     };
     return motion;
 }

@@ -232,8 +232,8 @@ protected:
         }
         model_ = std::move(builder).finish();
         const Vec3 middle = model_.at(centre);
-        std::vector<SectionWalk> walks; // lines of earlier sections are kept: they are edges now, and still
-                                        // separate parts of the face
+        // Lines of earlier sections are kept: they are edges now, and still separate parts of the face.
+        std::vector<SectionWalk> walks;
         std::vector<std::vector<EdgeUse>> lines;
         for (const Index start : from) {
             const geometry::Plane plane = geometry::plane_across(middle,

@@ -134,16 +134,16 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     if (!reading) return std::nullopt;
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
     if (!reading->guess) reading->guess = untold_face(reading->volume, *reading->closure);
-    if (whole.empty() || whole.front().closure) { // `closure` is set if read_bowl() found the reading; its
-                                                  // faces are split
+    // `closure` is set if read_bowl() found the reading; its faces are split.
+    if (whole.empty() || whole.front().closure) {
         reading->no_roles = why_no_roles(model, faces, context);
         return reading;
     }
     reading->roles = whole.front().roles;
     reading->others = whole.front().others;
     set_ends(reading->volume, reading->roles.roles);
-    Roles& roles = reading->roles.roles; // they name faces of `skin` here; below they are changed to faces of
-                                         // the model
+    // The roles name faces of `skin` here; below they are changed to faces of the model.
+    Roles& roles = reading->roles.roles;
     for (std::vector<FaceId>* list : {&roles.source, &roles.target, &roles.walls}) {
         std::erase_if(*list, [&](FaceId face) { return face.index() >= faces.size(); });
         for (FaceId& face : *list) face = faces[face.index()];

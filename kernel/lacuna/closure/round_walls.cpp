@@ -388,8 +388,8 @@ std::vector<Rim> add_straight_walls(FlatFilling& filling, std::vector<Rim> loops
     }
     for (const std::size_t l : needy) {
         check_cancelled(context);
-        std::optional<std::size_t> end; // the nearest rim of `other` such that the image of rim `l` lies
-                                        // inside it or encloses it
+        // The nearest rim of `other` such that the image of rim `l` lies inside it or encloses it.
+        std::optional<std::size_t> end;
         const auto distance = [&](std::size_t o) {
             return std::abs(geometry::height(plane[o], places[l].front()));
         };

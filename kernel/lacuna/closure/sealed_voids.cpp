@@ -199,7 +199,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     };
     std::vector<MovedEnd> moved = move_ends(model, faces, known, context);
     std::vector<Void> ends;
-    bool told = true; // whether no rim without walls was extended
+    bool told = true; // false if a rim without walls was extended
     for (MovedEnd& one : moved) {
         Void now;
         now.sealed = {{Closed(std::move(one)), {}}, one.enclosed};
