@@ -262,7 +262,8 @@ private:
         return made;
     }
 
-    /// Add the void edge of a source vertex from a level to the next, unless it exists.
+    /// Add the void edge that a source vertex sweeps from a level to the next, unless the edge exists
+    /// already.
     void add_path_edge(VertexId vertex, std::size_t level)
     {
         if (!paths_.insert({vertex, level}).second) return;
@@ -360,7 +361,8 @@ private:
     ModelBuilder builder_;
     std::vector<bool> source_points_;
     std::vector<Index> used_;                ///< points of the source's facets
-    std::vector<std::vector<Index>> at_row_; ///< by row and point of the source: its image there, or -1
+    std::vector<std::vector<Index>> at_row_; ///< by row and point of the source: index of the point's image
+                                             ///< in that row; -1: none
     std::map<std::pair<VertexId, std::size_t>, VertexId> vertices_;
     std::set<std::pair<VertexId, std::size_t>> paths_; ///< the source vertices and levels for which the void
                                                        ///< edge along the path exists

@@ -39,8 +39,8 @@ constexpr int kCurveSteps = 8;
 
 // --- twist and scale ---------------------------------------------------------------------------------------
 
-/// A profile as a function of the height: linear, or the user's function, sampled at even heights and
-/// interpolated by cubics.
+/// A profile as a function of the height. A profile of the user is sampled at even heights and interpolated
+/// by cubics.
 std::function<double(double)> sampled(const Along::Profile& profile, double first, const char* name)
 {
     if (!profile.at) {
@@ -290,7 +290,7 @@ Vec3 start_of_turn(const Vec3& point, const Vec3& axis, const Vec3& place)
 
 // --- vectors of single points ------------------------------------------------------------------------------
 
-/// A vector at each point of the source's facets, linear on each facet.
+/// A vector field on the source's facets, given at their corners and linear on each facet.
 struct PointVectors {
     std::vector<Triangle> facets;
     geometry::FacetTree tree;
@@ -483,8 +483,8 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
     motion.reach = [tree, way, vectors = std::make_shared<const PointVectors>(model, std::move(reach))](
                        const Vec3& place) -> Vec3 {
         const geometry::FacetTree::RayHit hit = tree->first_along(place, way);
-        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way); // at the rim, rounding may make the
-                                                                         // ray miss the face
+        // At the rim, rounding may make the ray miss the face.
+        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way);
     };
     return motion;
 }

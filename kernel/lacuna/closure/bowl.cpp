@@ -19,14 +19,15 @@ using namespace topology;
 
 namespace {
 
-/// Number of faces tried as the mouth, the largest first. Each costs a pass over the facets and possibly a
-/// cut. A hollow has one such face, a box six; a lower number may miss a small mouth.
+/// Largest number of flat faces tried as the mouth, in the order of their area. Each costs a pass over the
+/// facets and possibly a cut. A hollow has one possible mouth, a box six; with a lower number, a small mouth
+/// may be missed.
 constexpr std::size_t kMostMouths = 4;
-/// Number of heights between bottom and mouth at which the inclination is sampled, and where the skin may be
-/// cut. A fillet whose height is a thirtieth of the depth still covers two of these heights.
+/// Number of heights between bottom and mouth at which the inclination is sampled. The skin is cut at one of
+/// them. A fillet whose height is a thirtieth of the depth still covers two of these heights.
 constexpr std::size_t kBins = 64;
-/// A skin whose steepest inclination is below this (11°) is only a bottom [radians]. A lower value separates
-/// walls that hardly rise; a higher one finds no walls in shallow bowls.
+/// If the steepest inclination of a skin is below this (11°), the skin has no walls [radians]. With a lower
+/// value, surfaces that hardly rise count as walls; with a higher one, shallow bowls have no walls.
 constexpr double kLeastLean = 0.2;
 
 /// Coplanar faces with the same normal.
@@ -36,7 +37,7 @@ struct Mouth {
     double area = 0;
 };
 
-/// Flat faces with all other faces behind them, the largest first.
+/// Flat faces that have all other faces on the side opposite to their normal, the largest first.
 std::vector<Mouth> mouths(const Model& model)
 {
     std::vector<Mouth> found;
@@ -161,7 +162,7 @@ std::optional<Bowl> part_bowl(const OpenVolume& sealed, const RunContext& contex
 {
     for (const Mouth& mouth : mouths(sealed.model)) {
         check_cancelled(context);
-        // part_at() refuses a plane that would cross given quads of a face.
+        // part_at() throws if the plane would cross given quads of a face.
         auto bowl = unless_refused([&] { return part_at(sealed, mouth, context); });
         if (bowl && *bowl) return std::move(*bowl);
     }

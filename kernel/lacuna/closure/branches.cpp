@@ -318,8 +318,8 @@ private:
     [[nodiscard]] std::vector<geometry::Plane> planes_along(const std::vector<const Mouth*>& mouths) const
     {
         const Model& model = volume_.model;
-        std::vector<std::array<Vec3, 2>> across; // end points of the edges between two faces of an end of the
-                                                 // main body
+        // End points of the edges between two faces of an end of the main body.
+        std::vector<std::array<Vec3, 2>> across;
         for (std::size_t e = 0; e < model.edges.size(); ++e) {
             const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
             const bool inner = uses.size() == 2 && uses[0].face != uses[1].face &&
@@ -532,8 +532,8 @@ private:
             if (found_.region[made.parent[f].index()] == mouths.front()->host) host.emplace_back(f);
 
         Partition middle;
-        std::map<VertexId, EdgeUse> onward; // by the vertex at which a section line ends: the dip that
-                                            // continues the line
+        // By the vertex at which a section line ends: the dip that continues the line.
+        std::map<VertexId, EdgeUse> onward;
         for (const Mouth* mouth : mouths) {
             // The void faces of earlier mouths come after the faces of the skin.
             std::vector<FaceId> branch;

@@ -56,14 +56,15 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
     return tubes;
 }
 
-/// Distance between the centres of two loops along the normal of `to`, which is the sweep direction there.
+/// Distance between the centres of two loops, measured along the normal of `to`: the sweep direction at that
+/// loop.
 double distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
 {
     const Vec3 normal = geometry::newell_vector(to).stableNormalized();
     return std::abs((geometry::mean_point(from) - geometry::mean_point(to)).dot(normal));
 }
 
-/// Order each tube's loops like those of the first tube.
+/// Order the two loops of each tube like those of the first tube, by their distances to these.
 void sort_ends(const Model& model, std::vector<Tube>& tubes)
 {
     const Tube& first = tubes.front();

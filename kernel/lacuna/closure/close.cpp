@@ -160,7 +160,7 @@ public:
         }
     }
 
-    /// Seal and check with the first method that succeeds.
+    /// Seal with the first of the `wanted()` methods that succeeds, and check the result.
     Closed seal(const matching::Match& match)
     {
         std::optional<NotClosed> first;
@@ -234,7 +234,8 @@ private:
         if (!options_.trial) instead = volume_sealed_as({other}, match);
         const double share = share_between(taken, instead);
         if (leads() && !(share > kSameVolume))
-            return; // bent walls are reported only if the volumes differ; inclined ends are always reported
+            return; // beside bent walls the alternative is reported only if the volumes differ; between
+                    // inclined ends it always is
         const std::string text =
             follows
                 ? "a loop of the source has no wall, and void faces there follow the walls of another loop"
@@ -317,7 +318,7 @@ private:
         matching::MatchOptions turned;
         turned.vertices = pairs_by_hand(volume_, options_);
         for (const matching::LoopPair& pair : match.loops) turned.flip.push_back(pair.source);
-        // match() refuses if walls or pairs fix the direction.
+        // match() throws if walls or given pairs determine the direction.
         const auto other = unless_refused([&] { return matching::match(volume_, turned, context_); });
         if (!other) return otherwise();
         for (const Way& way : wanted(*other)) {
@@ -397,8 +398,8 @@ matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options
     return matching::match(volume, by_hand, context);
 }
 
-/// Close a volume whose holes without walls are already covered, or are extended to the other end.
-/// @param whole  the class of the volume with its holes
+/// Close a volume. Holes without walls in its ends were covered before, or are extended to the other end.
+/// @param whole  the class of `volume`
 Closed close_rest(const OpenVolume& volume, const matching::Match& match, VolumeClass whole,
                   const Asked& options, const RunContext& context)
 {
@@ -462,7 +463,7 @@ Closed close_as_asked(const OpenVolume& volume, const matching::Match& match, co
     check_options(volume, whole, holes, options);
     if (whole == VolumeClass::V && !options.trial) check_tubes(volume, context);
     if (options.holes == Holes::cover) return close_covered(volume, holes, whole, options, context);
-    std::optional<HoleVolumes> volumes; // set if the treatment of the holes is ambiguous
+    std::optional<HoleVolumes> volumes; // set if it is ambiguous whether holes are covered or extended
     if (whole == VolumeClass::IV && !holes.empty() && options.holes == Holes::automatic && !options.trial)
         volumes = hole_volumes(volume, options, context);
     if (volumes && !options.take_guess && (volumes->covered || volumes->through))

@@ -30,9 +30,9 @@ enum class EdgeShape {
 
 /// Shape of a missing end (class IV).
 enum class Cap {
-    automatic, ///< flat, or parallel if flat would cross the given faces
+    automatic, ///< `flat`, or `parallel` if a flat end would cross the given faces
     flat,      ///< in the plane of the end's rim; if the rim is not planar, interpolated (Algorithm 4)
-    parallel,  ///< the given end's shape, moved to the rim by the motion that the walls define
+    parallel,  ///< the shape of the given end, moved to the rim of the missing end along the walls
 };
 
 /// Treatment of a given end's holes without walls.
@@ -46,7 +46,8 @@ enum class Holes {
 /// A void edge given by the user.
 struct VoidEdge {
     int from = 0, to = 0;     ///< tags of vertices on the free rims
-    std::vector<Vec3> points; ///< inner points from `from` to `to`; empty: straight [model length]
+    std::vector<Vec3> points; ///< inner points, in order from `from` to `to` [model length]; empty: the edge
+                              ///< is straight
 };
 
 struct CloseOptions {

@@ -91,8 +91,9 @@ void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
     }
 }
 
-/// Add a void wall for each free loop: eq. (2) of the paper, V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi. Departure: a flat
-/// loop within another in its plane, such as the mouth of a bore, is a hole of that loop's wall.
+/// Add a void wall for each free loop: eq. (2) of the paper, V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi (source, target,
+/// given walls, void walls). Departure: a flat loop that lies within another loop of the same plane, such as
+/// the mouth of a bore, becomes a hole of the outer loop's wall.
 void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     const std::vector<Loop> loops = void_loops(volume, closure.void_edges);

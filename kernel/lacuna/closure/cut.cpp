@@ -162,10 +162,10 @@ private:
     /// Refuse a cut that leaves a thin strip beside an edge.
     void refuse_thin(double least) const
     {
-        std::vector<char> joined(model_.vertices.size(), 0); // by vertex: whether it is the end of an edge
-                                                             // that meets the plane
-        std::vector<std::pair<EdgeId, Vec3>> near;           // edges near the plane, with the middle of their
-                                                             // segment nearest to it
+        // By vertex: whether it is the end of an edge that meets the plane.
+        std::vector<char> joined(model_.vertices.size(), 0);
+        // Edges near the plane, with the middle of their segment nearest to it.
+        std::vector<std::pair<EdgeId, Vec3>> near;
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             const Edge& edge = model_.edges[e];
             double low = kInfinity, high = -kInfinity, next = least;

@@ -24,7 +24,8 @@ using namespace topology;
 
 namespace {
 
-/// Length of the mean unit normal of a cylinder that turns by a right angle.
+/// Length of the mean normal of a cylinder that turns by a right angle; that of a flat face is 1, that of a
+/// full turn 0.
 constexpr double kQuarterTurn = 2 * std::numbers::sqrt2 / std::numbers::pi;
 
 bool are_parallel(const Vec3& a, const Vec3& b) { return a.cross(b).norm() < kParallel; }
@@ -70,8 +71,8 @@ std::vector<EdgeId> edges_along(const Model& model, FaceId face, const Vec3& axi
     return edges;
 }
 
-/// The bend of a face: a concave cylinder that turns by more than a right angle, or a concave fillet, which
-/// continues the faces on both sides. Empty for any other face.
+/// The bend of a face that is a concave cylinder: either one that turns by more than a right angle, or a
+/// fillet, which meets the faces on both sides smoothly. Empty for any other face.
 std::optional<Bend> round_bend(const Model& model, FaceId face, const SkinTurns& turns)
 {
     const double area = face_area(model, face);
@@ -196,7 +197,8 @@ private:
         });
     }
 
-    /// Add the planes through the axis of a concave cylinder and an edge where a flat face continues it.
+    /// Add the planes through the axis of a concave cylinder and a straight edge between the cylinder and a
+    /// flat face.
     void add_fillet_planes()
     {
         for (const Bend& bend : bends_) {

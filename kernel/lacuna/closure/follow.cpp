@@ -14,12 +14,12 @@ namespace {
 
 /// Number of heights at which the walls are cut: one per segment of a void edge.
 constexpr int kLevels = 64;
-/// Ring walls: void edges are straight as long as the bow of the walls (`bow_of()`) is at most this share of
-/// the rims' radius. The section then loses about twice that share, 1 %.
+/// Beside walls that form a ring, void edges are straight if the bow of the walls (`Follower::bow()`) is at
+/// most this. Straight void edges then change the area of the section by about twice this share, 1 %.
 constexpr double kAstray = 0.005;
 /// The same limit for walls that do not form a ring: kAstrayOpen if they determine the rest of their loop,
-/// kAstrayGuessed otherwise. The limits are higher because walls with a given mesh, and single twisted walls
-/// of few facets, have as much bow even if the true wall is straight.
+/// kAstrayGuessed otherwise. The limits are higher, because walls with a given mesh and single twisted walls
+/// with few facets may have such a bow although the true wall is straight.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
 /// Walls that do not form a ring and whose bow exceeds kBeside may not be part of a sweep. Void edges that
 /// follow such walls are tried before straight ones only if an edge leaves its chord by more than kFarAstray.

@@ -58,8 +58,8 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
         const EndLoops ends = group_loops(open);
         return std::pair(!floors_round(open, ends.source).empty(), !floors_round(open, ends.target).empty());
     });
-    if (!floors || floors->first == floors->second) return std::nullopt; // with two floors, the faces are a
-                                                                         // ring between two ends
+    // With two floors, the faces are a ring between two ends.
+    if (!floors || floors->first == floors->second) return std::nullopt;
     const std::optional<Sealed> sealed = seal(model, walls, context);
     if (!sealed) return std::nullopt;
     Reading reading;

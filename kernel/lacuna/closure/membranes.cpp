@@ -18,12 +18,12 @@ using namespace topology;
 
 namespace {
 
-/// A face is about flat if half the range of its heights over its plane is within this share of its extent.
-/// A lower value counts roughness as a bend; a higher one overlooks shallow bends.
+/// A face is about flat if half the range of its heights over its mean plane is at most this share of its
+/// extent. With a lower value, roughness counts as a bend; with a higher one, shallow bends are missed.
 constexpr double kFlat = 0.02;
-/// Allowed distance of a face from the quadric of its rim, as a share of half the range of the face's
-/// heights. A higher value would accept a membrane between two planes, although it is far from both; a lower
-/// one would reject coarse facets.
+/// Largest distance of a face from the quadric of its rim at which the face counts as near, as a share of
+/// half the range of the face's heights. A higher value would accept a membrane over the rim of two planes,
+/// although the membrane is far from both; a lower one would reject coarse facets.
 constexpr double kNearIt = 0.2;
 
 /// The size of a face along the axes of its mean plane, and along its normal [model length].

@@ -232,8 +232,8 @@ protected:
         }
         model_ = std::move(builder).finish();
         const Vec3 middle = model_.at(centre);
-        std::vector<SectionWalk> walks; // lines of earlier sections are kept: they are edges now, and still
-                                        // separate parts of the face
+        // Lines of earlier sections are kept: they are edges now, and still separate parts of the face.
+        std::vector<SectionWalk> walks;
         std::vector<std::vector<EdgeUse>> lines;
         for (const Index start : from) {
             const geometry::Plane plane = geometry::plane_across(middle,
@@ -364,7 +364,8 @@ private:
     std::vector<VertexId> middle_of_edge_, middle_of_face_;
     std::vector<std::vector<std::vector<EdgeUse>>> lines_; ///< by edge: the lines from the middle of the edge
                                                            ///< to the middles of its two faces
-    std::vector<FaceId> between_; ///< by edge: the face between the blocks at its ends
+    std::vector<FaceId> between_; ///< by edge of the volume: the face between the blocks at the edge's two
+                                  ///< vertices
 };
 
 /// Divides a volume into cones with their apex at the volume's centroid. The base of a cone is a three-sided

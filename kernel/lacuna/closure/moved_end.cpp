@@ -417,7 +417,8 @@ private:
     std::map<VertexId, EdgeUse> leaving_; ///< free uses of walls, by start vertex
     std::vector<Rim> free_rims_;          ///< free rims of walls
     std::size_t free_count_ = 0;          ///< number of free edges of walls
-    std::map<VertexId, VertexId> above_;  ///< by vertex of the end, the vertex of the moved end
+    std::map<VertexId, VertexId> above_;  ///< by vertex of the given end: the corresponding vertex of the
+                                          ///< moved end
     std::set<EdgeId> accounted_;          ///< free wall edges on chains that lead up to the vertices of
                                           ///< `above_`
     std::vector<std::vector<Stretch>> rims_;

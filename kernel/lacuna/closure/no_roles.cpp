@@ -79,8 +79,8 @@ bool is_cone_to_its_tip(const Model& model, FaceId face)
     return cone && cone->least_radius <= kOffShape * cone->largest_radius;
 }
 
-/// An edge between two cylinders with non-parallel axes, each covering half a turn or more; fillets cover
-/// less.
+/// An edge between two cylinders with non-parallel axes, each of half a turn or more; invalid if there is
+/// none. Fillets are less than half a turn.
 EdgeId crossing_of_bores(const Model& model)
 {
     constexpr double kHalfTurn = 0.7; // upper bound of the mean normal's length; that of half a turn is 2 / π

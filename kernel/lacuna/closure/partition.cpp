@@ -41,7 +41,7 @@ constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
 /// axes of `cut_in_steps()`.
 constexpr std::size_t kMostRead = 6;
 
-/// A piece and, if it has no ends, the bends and the length that are left to cut.
+/// A piece of the volume. Its bends and the length left to cut matter only if it has no ends.
 struct CutPart {
     StepPiece piece;
     std::vector<Bend> bends;
@@ -309,9 +309,9 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, st
     return cuts;
 }
 
-/// The cuts of a piece that reduce the length left to cut in pieces without ends, best first. A cut into two
-/// pieces that both have ends is returned alone. Cuts that leave the same length, such as those by coplanar
-/// faces, are listed once.
+/// The cuts of a piece that leave less length to cut, best first; only pieces without ends count. If a cut
+/// makes two pieces that both have ends, only this cut is returned. Cuts that leave the same length, such as
+/// those by coplanar faces, are listed once.
 std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                 const CanSweep& can_sweep, const RunContext& context)
 {
@@ -369,7 +369,8 @@ public:
         check_cancelled(context_);
         if (tried_ >= kMostCuts || pieces_ >= kMostPieces) return {};
         std::vector<CutTried> cuts = best_cuts(part, least_, false, tried_, can_sweep_, context_);
-        // A part with a bore through it stays in one piece if it is cut on one side of the bore only.
+        // If a plane is cut only on one side of a bore, the part stays in one piece; so whole planes are
+        // tried next.
         if (cuts.empty()) cuts = best_cuts(part, least_, true, tried_, can_sweep_, context_);
         return cuts;
     }
@@ -467,8 +468,9 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
     return {};
 }
 
-/// The pieces of a volume that was cut into parts. A part that has length left to cut is divided at its
-/// middle where that is possible.
+/// The pieces of a volume that was cut into parts: blocks of divided parts, and the other parts. If there are
+/// several parts, those without ends that have length left to cut are divided at their middles where that is
+/// possible.
 std::vector<StepPiece> pieces_of(std::vector<CutPart> parts, const CanSweep& can_sweep,
                                  const RunContext& context)
 {

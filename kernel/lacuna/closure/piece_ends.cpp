@@ -27,14 +27,17 @@ namespace {
 /// such sets grows fast with the number of faces. A piece made by a few cuts has fewer faces. At most 64
 /// faces fit the bit mask `FaceSet`.
 constexpr std::size_t kMostFaces = 40;
-/// Limit of candidate ends of a piece; candidates of few faces come first. 600 suffices for a prism with
-/// twelve sides. A higher limit finds ends that consist of more faces; the cost is quadratic in the limit.
+/// Largest number of candidates for ends of a piece; those of few faces come first. 600 is enough for a prism
+/// with twelve sides. With a higher limit, ends of more faces are found; the cost is quadratic in the limit.
 constexpr std::size_t kMostEnds = 600;
 /// The normals of any two faces of an end differ by less than 110°; this is the cosine of 110°. A lower
 /// cosine joins faces that fold back on each other; a higher one separates the slopes of a steep roof.
 constexpr double kOneEnd = -0.35;
-/// A face may belong to an end if its mean normal, which has the length 1 on a flat face, is longer than 1 −
-/// kFlat.
+/// The normal of a face of an end differs from the end's mean normal by less than 70°; this is the cosine of
+/// 70°. A steeper face, such as a riser between two steps, is nearly parallel to the columns, and cells at
+/// the face would have almost no volume.
+constexpr double kFacesEnd = 0.34;
+/// A face may belong to an end if its mean normal is longer than 1 − kFlat. The length is 1 for a flat face.
 constexpr double kFlat = 0.1;
 /// Subtracted from the cost of a pair for each end that the user named. A higher value keeps named ends at
 /// the price of worse cells.
@@ -283,8 +286,8 @@ struct Ends {
     std::map<std::string, std::set<std::pair<Origin, int>>> wall{};
 };
 
-/// Number of cut faces that are walls of both pieces, but touch the ends of the two pieces along different
-/// edges, so that the pieces' rows of quads on the cut cannot match.
+/// Number of cut faces that are walls of both pieces but touch the ends of the two pieces along different
+/// edges. The rows of quads of both pieces cannot match on such a cut face.
 std::size_t unlike(const Ends& a, const Ends& b)
 {
     return static_cast<std::size_t>(std::ranges::count_if(a.wall, [&](const auto& wall) {

@@ -107,8 +107,9 @@ private:
             else
                 lone[sets.find(f)].emplace_back(f);
         }
-        // A part of the skin that touches no partition belongs to the piece that encloses it. If no closed
-        // piece does, as for ends without walls, the piece with the largest winding number gets it.
+        // A part of the skin that touches no partition belongs to the piece that encloses the part. If the
+        // pieces are open, as for ends without walls, it belongs to the piece with the largest winding number
+        // around it.
         std::vector<std::size_t> home;
         for (const auto& [root, skin] : lone) home.push_back(part_round(skin));
         std::size_t next = 0;
@@ -162,7 +163,7 @@ private:
         for (const FaceId face : part.skin) list_of(roles, parted_.volume.role[face.index()]).push_back(face);
         std::vector<std::vector<FaceId>> across;
         for (std::vector<FaceId>& cut : connected_parts(model_, part.partitions)) {
-            // A cut in the plane of an end that it touches is part of that end.
+            // A cut that touches faces of an end in its own plane is part of that end.
             std::vector<FaceId>* const end = goes_on(cut, roles.source)   ? &roles.source
                                              : goes_on(cut, roles.target) ? &roles.target
                                                                           : nullptr;

@@ -123,7 +123,7 @@ std::optional<Reading> without_ends(FlatFilling filled, const RunContext& contex
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
-    // Filling is refused if a new face shares an edge with two others.
+    // Filling throws if a new face shares an edge with two other faces.
     auto filled = unless_refused([&] {
                       return fill_all_loops(model, faces, context);
                   }).value_or(std::nullopt);
@@ -135,15 +135,16 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
     if (!reading->guess)
         reading->guess = untold_face(reading->volume, *reading->closure, kVolumeNoted * reading->enclosed);
-    if (whole.empty() || whole.front().closure) { // `closure` is set by read_bowl(), which splits faces
+    // `closure` is set if read_bowl() found the reading; its faces are split.
+    if (whole.empty() || whole.front().closure) {
         reading->no_roles = why_no_roles(model, faces, context);
         return reading;
     }
     reading->roles = whole.front().roles;
     reading->others = whole.front().others;
     set_ends(reading->volume, reading->roles.roles);
-    Roles& roles = reading->roles.roles; // they name faces of `skin` here; below they are changed to faces of
-                                         // the model
+    // The roles name faces of `skin` here; below they are changed to faces of the model.
+    Roles& roles = reading->roles.roles;
     for (std::vector<FaceId>* list : {&roles.source, &roles.target, &roles.walls}) {
         std::erase_if(*list, [&](FaceId face) { return face.index() >= faces.size(); });
         for (FaceId& face : *list) face = faces[face.index()];
@@ -238,7 +239,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         return seal(model, candidate.roles, context).has_value();
     };
     std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed, context);
-    if (found.empty()) // the likeliest candidates do not seal; less likely ones may
+    if (found.empty()) // the likeliest candidates cannot be sealed; less likely ones may be
         found = voids(model, less_likely(model, faces, kMostTried, seals, context), kMostSealed, context);
     auto flat = fill_flat_loops(model, faces, context);
     const bool dropped = prefer_flat(found, flat, context);

@@ -14,7 +14,7 @@
 
 namespace lacuna::closure {
 
-/// A volume sealed with default options: close() with this match and no options gives the same result.
+/// A sealed volume, and the match with which close() gives the same result for default options.
 struct SealedVolume : Closed {
     matching::Match match;
 };
@@ -44,7 +44,8 @@ struct Reading {
     std::size_t ways = 1; ///< number of role candidates that enclose this volume
     /// Null if there is no other sweep direction, or if the user gave the ends.
     std::shared_ptr<const OtherSweeps> others;
-    /// Why no ends were found. If set, `closure` is set too, and all faces of `volume` are walls.
+    /// The error that no ends were found. If it is set, `closure` is set too, and all faces of `volume` are
+    /// walls.
     std::optional<Message> no_roles;
 };
 
@@ -66,8 +67,8 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// Some hollows have no candidate, because their bottom blends smoothly into their walls, such as a
 /// hemisphere or a bore with a round end. Such a hollow is split across the blend; its bottom is the source.
 ///
-/// For a tube with a flat annular floor at one of its two ends, such as a counterbore's wall and ledge, the
-/// source is that floor together with the mouth of the narrower bore.
+/// If a tube has a flat annular floor at one of its two ends, like a counterbore, the source is this floor
+/// together with the mouth of the narrower bore.
 ///
 /// Flat faces may close the free loops without being one face for each loop: a face has a hole, or a loop
 /// lies in two planes. The volume that they enclose is a further void. A channel that lacks its ends and one

@@ -26,8 +26,9 @@ namespace {
 
 using Powers = Eigen::Vector<double, 10>;
 
-/// Tolerance for points on a quadric, as a share of the rim's own deviation from its plane. Mesh points on a
-/// quadric are off by rounding only; a higher value finds quadrics that the rim merely approximates.
+/// Tolerance for points on a quadric, in a frame in which the rim extends equally in all directions
+/// (`EvenFrame`). Mesh points on a quadric are off by rounding only; with a higher value, quadrics are found
+/// that the rim only approximates.
 constexpr double kOnQuadric = 1e-4;
 /// Least number of points of the rim beyond nine. Nine points always lie on a quadric; further points show
 /// that the rim does. A higher number would exclude rims of few points.

@@ -88,7 +88,7 @@ private:
         return true;
     }
 
-    /// Connected sets of rounds that are in this part of the end or meet it smoothly.
+    /// Connected sets of rounds. In each set, a round belongs to this part of the end or meets it smoothly.
     std::vector<std::vector<FaceId>> rounds_at_rim() const
     {
         const std::set<FaceId> own(part_.begin(), part_.end());
@@ -254,7 +254,8 @@ void join_rounds(OpenVolume& volume, const RunContext& context)
 void split_round_rims(OpenVolume& volume, RoundsOf of, const RunContext& context)
 {
     const auto parts = [&](Role end) { return connected_parts(volume.model, volume.faces(end)); };
-    // Treat all edges as smooth here: computing their turns costs more than finding that there are no rounds.
+    // Here all edges count as smooth: to compute their turns would cost more than to find that there are no
+    // rounds.
     const std::vector<double> smooth(volume.model.edges.size(), 0);
     const auto has_rounds = [&](const std::vector<FaceId>& part) {
         return RoundRims(volume, part, smooth, of, context).has_rounds();

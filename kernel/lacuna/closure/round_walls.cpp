@@ -386,8 +386,8 @@ FaceId given_beside(const Model& model, const Rim& rim)
     return model.uses_of_edge(rim.uses.front().edge).front().face;
 }
 
-/// Whether the given faces at a rim run along a direction. If they are inclined, a missing wall may be
-/// inclined as well.
+/// Whether the given faces at a rim are parallel to the direction `way`. If they are inclined, a missing wall
+/// may be inclined as well.
 bool is_square_to_walls(const Model& model, const Rim& rim, const Vec3& way)
 {
     return std::ranges::all_of(rim.uses, [&](const EdgeUse& use) {
@@ -533,7 +533,8 @@ std::vector<Rim> add_straight_walls(FlatFilling& filling, std::vector<Rim> loops
     }
     for (const std::size_t l : needy) {
         check_cancelled(context);
-        std::optional<std::size_t> end; // the nearest other rim that the image of rim `l` lies in or encloses
+        // The nearest rim of `other` such that the image of rim `l` lies inside it or encloses it.
+        std::optional<std::size_t> end;
         const auto distance = [&](std::size_t o) {
             return std::abs(geometry::height(plane[o], places[l].front()));
         };

@@ -30,8 +30,7 @@ constexpr double kSameSkin = 0.02;
 /// likelier than one with bent faces. A higher value drops more closings with bent faces.
 constexpr double kBentVoid = 0.5;
 
-/// Whether each free loop is filled by one face of its own, so that no void edge is needed and no face has
-/// several loops.
+/// Whether sealing fills each free loop with one face: no void edge is needed, and no face has several loops.
 bool fills_each_loop(const OpenVolume& open, std::size_t loops)
 {
     const Classification found = classify(open);
@@ -200,7 +199,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     };
     std::vector<MovedEnd> moved = move_ends(model, faces, known, context);
     std::vector<Void> ends;
-    bool told = true; // whether no rim without walls was extended
+    bool told = true; // false if a rim without walls was extended
     for (MovedEnd& one : moved) {
         Void now;
         now.sealed = {{Closed(std::move(one)), {}}, one.enclosed};

@@ -32,8 +32,8 @@ double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
     return (high - low) / std::sqrt(4 * area.norm() / std::numbers::pi);
 }
 
-/// The walls that meet an end smoothly, directly or through each other; empty if the end must not be
-/// extended.
+/// The walls that meet an end smoothly, and those that meet such walls smoothly. Empty if the end must not be
+/// extended, see extend_smooth_ends().
 std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end, const std::vector<double>& angle)
 {
     const Model& model = volume.model;

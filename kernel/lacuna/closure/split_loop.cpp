@@ -22,8 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// Two ends are congruent if, after a rigid fit, they are less than this share of their length apart. The
-/// value is above the sag of round sides and below the taper of a channel.
+/// Two ends are congruent if, after a rigid fit, their distance is at most this share of their length. The
+/// value is above the sag of round sides and below the change of section in a tapered channel.
 constexpr double kAlike = 0.005;
 
 /// The number of consecutive uses of a loop from `start` that lie in one plane.
@@ -72,7 +72,7 @@ std::size_t next_start(const Rim& rim, std::span<const Run> runs, std::size_t r)
     return r + 1 == runs.size() ? runs.front().first + rim.uses.size() : runs[r + 1].first;
 }
 
-/// The part of a loop between the r-th run and the next. @pre the runs are ascending and do not overlap
+/// The run of uses between the r-th run and the next one. @pre the runs are ascending and do not overlap
 Run between(const Rim& rim, std::span<const Run> runs, std::size_t r)
 {
     const std::size_t end = runs[r].first + runs[r].count;

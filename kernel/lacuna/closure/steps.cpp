@@ -419,8 +419,8 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
                                        "rim is not closed",
                                        entity_of(volume.model, face))
                                    .remedy("cut the volume with cut{{ plane = … }}"));
-        const Eigen::AlignedBox3d reach = box_of(volume.model, face); // the plane of a face cuts only pieces
-                                                                      // near this face
+        // The plane of a face cuts only pieces near this face.
+        const Eigen::AlignedBox3d reach = box_of(volume.model, face);
         const auto cut = [&](const OpenVolume& piece) {
             return cut_by_face(piece, volume.model, face, context);
         };

@@ -12,7 +12,7 @@ using namespace topology;
 
 namespace {
 
-/// Number of a part's rims that lie entirely on the rims of an end; -1 if a rim lies there only partly.
+/// Number of rims of `part` whose edges are all in `end`; -1 if only some edges of a rim are.
 int whole_rims(const std::vector<Rim>& part, const std::set<EdgeId>& end)
 {
     int whole = 0;

@@ -122,7 +122,7 @@ std::size_t count_turns(const std::vector<Vec3>& chain)
     return count;
 }
 
-/// A way to split a loop into the loops of faces.
+/// A split of a loop into the loops of missing faces.
 using FaceSplit = std::vector<FaceChain>;
 
 class TouchingFaces {

@@ -162,8 +162,8 @@ Tangents tangents_of(const OpenVolume& volume, const Gap& gap, const Follower* w
     return result;
 }
 
-/// Side of the ends' faces on which the void lies: 1 if their normals point towards the other end, otherwise
-/// -1.
+/// Side of the ends' faces on which the void lies: 1 if the normals point into the void, towards the other
+/// end; otherwise -1.
 double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, const Follower* walls)
 {
     const Model& model = volume.model;

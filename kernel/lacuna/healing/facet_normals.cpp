@@ -148,8 +148,8 @@ std::vector<Vec3> patch_normals(const Facets& facets, const FacetSides& sides, c
     for (const Triangle& corners : facets.corner) area.push_back(area_vector(facets.points, corners));
     std::vector<double> flattest(facets.count(), -1);
     std::vector<Index> seen(facets.count(), -1);
-    std::vector<std::pair<Index, bool>> patch; // facets in the order in which they were reached from the
-                                               // seed, and whether each is reversed
+    // Facets in the order in which they were reached from the seed, and whether each is reversed.
+    std::vector<std::pair<Index, bool>> patch;
     for (Index seed = 0; index(seed) < facets.count(); ++seed) {
         if (index(seed) % kBetweenPolls == 0) check_cancelled(context);
         patch.assign(1, {seed, false});

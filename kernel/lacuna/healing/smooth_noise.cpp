@@ -27,8 +27,8 @@ Incidence movers(const topology::ModelBuilder& model)
     std::vector<int> ends(model.vertices.size(), 0);
     for (const topology::Edge& edge : model.edges)
         for (const VertexId end : {edge.from, edge.to}) ++ends[end.index()];
-    const auto is_closed = [&](const topology::Edge& edge) { // the vertex of such an edge only marks its
-                                                             // start
+    // A closed edge that meets no other edge: its vertex only marks its start.
+    const auto is_closed = [&](const topology::Edge& edge) {
         return edge.from == edge.to && ends[edge.from.index()] == 2;
     };
     for (const topology::Edge& edge : model.edges)

@@ -132,7 +132,7 @@ std::vector<bool> repeated_cells(std::size_t points, const std::vector<std::arra
     return repeated;
 }
 
-/// Remove duplicates; halves of quads are removed with their quads.
+/// Remove facets and quads that repeat an earlier one. Halves of quads are removed with their quads.
 void drop_repeated(Facets& facets)
 {
     std::vector<int> quad_label(facets.quads.size(), 0);

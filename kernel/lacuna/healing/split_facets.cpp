@@ -46,8 +46,8 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vect
         const Index face = flood.faces++;
         flood.face[seed] = face;
         front.assign(1, static_cast<Index>(seed));
-        double as_given = 0; // area of facets that keep their given orientation, minus that of reversed
-                             // facets
+        // Area of facets that keep their given orientation, minus that of reversed facets.
+        double as_given = 0;
         for (std::size_t i = 0; i < front.size(); ++i) {
             if (i % kBetweenPolls == 0) check_cancelled(context);
             const Index f = front[i];

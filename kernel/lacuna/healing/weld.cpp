@@ -60,8 +60,8 @@ private:
 /// file repeats each point about six times.
 std::vector<Index> weld_equal(std::span<const Vec3> points)
 {
-    constexpr std::size_t kRepeats = 4; // expected repeats of a point; if no point repeats, four points share
-                                        // a slot, which only costs time
+    // Expected repeats of a point; if no point repeats, four points share a slot, which only costs time.
+    constexpr std::size_t kRepeats = 4;
     std::vector<Index> result(points.size());
     CellTable table(points.size(), points.size() / kRepeats);
     for (std::size_t i = 0; i < points.size(); ++i) {

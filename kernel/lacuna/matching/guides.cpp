@@ -37,7 +37,7 @@ using FacetSide = std::pair<Index, Index>;
 
 FacetSide side(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// A level line of the height on the facets of one connected part of the walls.
+/// A level line of `wall_heights()` on the facets of one connected part of the walls.
 struct LevelLine {
     std::vector<Vec3> points;
     std::vector<FacetSide> sides;                             ///< by point: the facet side on which it lies

@@ -61,7 +61,7 @@ void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const
          best.backward == second.backward ? "" : " or match{ flip = … }"});
 }
 
-/// Aligns every loop and pairs its vertices accordingly.
+/// Aligns every source loop with its target loop, and pairs the vertices accordingly.
 class LoopAligner {
 public:
     LoopAligner(const Problem& problem, Match& match)

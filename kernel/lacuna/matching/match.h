@@ -15,12 +15,13 @@ namespace lacuna::matching {
 
 enum class Method { aligned, nearest };
 
-/// Parts of a match that the user fixes; empty parts are computed. Numbers count from 0.
+/// Parts of a match that the user fixes. Parts that are left empty are computed. Loop numbers count from 0.
 struct MatchOptions {
     Method method = Method::aligned;
     std::vector<std::pair<int, int>> vertices; ///< (source, target) vertex tags
     std::vector<std::pair<int, int>> loops;    ///< (source, target) loop numbers
-    std::vector<int> flip;                     ///< source loops whose direction on the target is reversed
+    std::vector<int> flip;                     ///< source loops whose computed direction on the target is
+                                               ///< reversed
     friend bool operator==(const MatchOptions&, const MatchOptions&) = default;
 };
 

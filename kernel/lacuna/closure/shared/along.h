@@ -57,7 +57,7 @@ Closed close_along(const SweptSource& swept, const CloseOptions& options, const 
 /// Set `void_edges`, `void_faces` and `watertight` of a closure from its volume.
 void list_void(Closed& closed);
 
-/// The two halves of a full turn, each sealed. Both ends of one half are the ends of the other.
+/// The two halves of a full turn, each sealed. Both halves have the same two faces as ends.
 std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& context);
 
 } // namespace lacuna::closure

@@ -26,7 +26,7 @@ public:
     Follower(const topology::OpenVolume& volume, const std::vector<matching::SideLine>& lines,
              const RunContext& context = {});
 
-    /// False if no given wall joins source and target, so that there is no motion to follow.
+    /// Whether some given wall joins source and target, so that there is a motion to follow.
     [[nodiscard]] bool leads() const { return !ways_.empty(); }
 
     /// Index of the motion that applies at a rim point of the source: that of the point's loop if the loop

@@ -21,8 +21,8 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// made, the best first, until `take` accepts one.
 ///
 /// Candidate cuts are those of `cut_planes()`:
-/// - the plane of a flat face next to concave edges, only in the regions of the plane that adjoin these
-///   edges;
+/// - the plane of a flat face next to concave edges; only regions of the plane that adjoin these edges are
+///   cut;
 /// - the plane in which the cylinder of a bore ends in a cone, a ball or another bent face;
 /// - planes midway between features;
 /// - planes through the axes of bores that cross each other or leave through a bent face.
@@ -42,12 +42,12 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - the volume as one piece with the faces that face along an axis as ends, after the rounds at the rims of
 ///   these ends were divided (`split_round_rims()`);
 /// - the volume with the faces that face along an axis as ends, cut at their steps (`cut_steps()`);
-/// - divided at its middle (`midpoint_blocks()`);
+/// - the volume divided at its middle (`midpoint_blocks()`);
 /// - divided at a centre, if no cut was made and no length is left to cut;
 /// - the pieces of the best cuts, if some have no ends. Pieces that still have a length to cut are divided at
 ///   their middles where that is possible. If no cut helps, the only piece is the volume itself, with other
 ///   ends if there are any;
-/// - the pieces of up to five other cuts of the volume, each cut on in the same way.
+/// - the pieces of up to five other cuts of the volume; these pieces are cut further in the same way.
 /// @param least  the least distance between a cut and an edge beside it, unless the volume itself is that
 ///               thin there [model length].
 /// @param take   called with pieces and their ends; those without ends cannot be swept. If no cut helps, the

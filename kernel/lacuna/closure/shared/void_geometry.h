@@ -35,10 +35,10 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// Triangulate one void face from its loops (the outer loop and islands).
 ///
 /// The method depends on the face; algorithms are numbered as in the paper (`docs/bibliography.md`).
-/// - A bent face with four logical sides, or with four sharp corners if it is ruled or its rim lies on no
-///   quadric: Algorithm 6 (Algorithm 5 if two opposite sides are the same edge, a seam), a patch between four
-///   sides over arc length. Departure: the patch is a `geometry::SweptPatch`, whose frame rotates along the
-///   sides, not a bilinear Coons patch. The mesh of the face is made on the same surface.
+/// - A bent face with four logical sides, or with four sharp corners if the face is ruled or its rim lies on
+///   no quadric: Algorithm 6, a patch between the four sides over arc length (Algorithm 5 if two opposite
+///   sides are the same edge, a seam). Departure: the patch is a `geometry::SweptPatch`, whose frame rotates
+///   along the sides, not a bilinear Coons patch. The mesh of the face is made on the same surface.
 /// - Any other face whose outline does not cross itself in its Newell plane: Algorithm 4, constrained
 ///   Delaunay in that plane, with inner heights from the harmonic interpolation of the rim's heights.
 ///   Departure: if the rim determines a quadric, the interior lies on it too. If the rim lies on many

@@ -47,8 +47,7 @@ public:
     }
     struct Shrunk {
         std::vector<FaceId> faces;  ///< faces that collapsed
-        std::vector<FaceId> meshes; ///< faces that lost their given quads, because some of the quads
-                                    ///< collapsed
+        std::vector<FaceId> meshes; ///< faces whose given quads were dropped, because some of them collapsed
         int edges = 0;              ///< number of edges that collapsed
     };
     /// Apply the merges of points, and remove the facets, edges and faces that collapsed.

@@ -26,8 +26,8 @@ struct StitchReport {
     [[nodiscard]] std::string summary() const;
 };
 
-/// Usual value of `share` in `stitch()`. Rule of thumb: gaps between surfaces that were exported one by one
-/// are smaller, slits that were drawn on purpose are larger.
+/// Value of `share` in `stitch()` for files that are loaded without a tolerance. Rule of thumb: gaps between
+/// surfaces that were exported one by one are smaller, slits that were drawn on purpose are larger.
 inline constexpr double kSewnShare = 0.01;
 
 /// Join faces that meet without sharing edges.

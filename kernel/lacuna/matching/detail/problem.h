@@ -35,8 +35,8 @@ struct Problem {
     const MatchOptions& options;
     const RunContext& context;
     std::vector<LoopShape> source, target;
-    std::map<VertexId, VertexId> walls; ///< source vertex → target vertex, joined by walls
-    std::map<VertexId, VertexId> hard;  ///< the pairs from the walls and those of the user
+    std::map<VertexId, VertexId> walls; ///< by source vertex: the target vertex to which walls join it
+    std::map<VertexId, VertexId> hard;  ///< the pairs of `walls` and those of the user
     std::vector<int> forced;            ///< target loop of each source loop that walls or the user fixed; -1:
                                         ///< not fixed
     std::vector<bool> on_wall;          ///< by vertex of the model: whether it is on a wall
