@@ -33,10 +33,6 @@ constexpr std::size_t kMostEnds = 600;
 /// The normals of any two faces of an end differ by less than 110°; this is the cosine of 110°. A lower
 /// cosine joins faces that fold back on each other; a higher one separates the slopes of a steep roof.
 constexpr double kOneEnd = -0.35;
-/// The normal of a face of an end differs from the end's mean normal by less than 70°; this is the cosine of
-/// 70°. A steeper face, such as a riser between two steps, is nearly parallel to the columns, and cells at
-/// the face would have almost no volume.
-constexpr double kFacesEnd = 0.34;
 /// A face may belong to an end if its mean normal is longer than 1 − kFlat. The length is 1 for a flat face.
 constexpr double kFlat = 0.1;
 /// Subtracted from the cost of a pair for each end that the user named. A higher value keeps named ends at
