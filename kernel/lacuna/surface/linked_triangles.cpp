@@ -11,8 +11,8 @@ namespace lacuna::surface {
 
 double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal)
 {
-    /// Minimum cosine of the angle between a triangle's normal and the face normal at its corners: 60°.
-    /// Curvature alone causes smaller angles, because the face turns by at most 30° along a side.
+    /// Minimum cosine of the angle between a triangle's normal and the face normals at its corners: 60°. A
+    /// larger angle is not caused by curvature, because the face turns by at most 30° along a side.
     constexpr double kAligned = 0.5;
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
     const Vec3 across = ab.cross(-ca);

@@ -80,7 +80,7 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
                        entities_of(model, part), found(touched.size()), end);
 }
 
-/// Keep the first side line, and all side lines that follow it in the same cyclic order around both rims.
+/// Keep the first side line. Of the others, keep those that come in the same order around both rims.
 std::vector<LinkingLine> in_order(std::vector<LinkingLine> lines)
 {
     std::vector<LinkingLine> kept;
@@ -107,8 +107,8 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
 
 void add_segments(const Model& model, LinkingSurface& link, double s0, double s1, double t0, double t1)
 {
-    // Without side lines, the walls determine which corners correspond. Then only corners that are close to
-    // each other are paired.
+    // Without side lines, the walls determine the correspondence of the rims, and only corners that are close
+    // to each other are paired.
     const Pairing pairing = link.lines.empty() ? Pairing::near : Pairing::in_order;
     std::vector<double> a = corners_between(model, link.source, s0, s1, true);
     std::vector<double> b = corners_between(model, link.target, t0, t1, false);
@@ -183,8 +183,9 @@ std::vector<double> middles_of_rounds(const Model& model, const Chain& chain)
     return middles;
 }
 
-/// The corners of the source's rim, each with the middle of a round of the target's rim, if the target's rim
-/// has as many rounds and no corners. The corners of a rounded box's floor correspond to its rounded edges.
+/// Pair the corners of the source's rim with the middles of the rounds of the target's rim
+/// (`middles_of_rounds()`). Empty unless the target's rim has no corners and as many rounds as the source's
+/// rim has corners. Example: a box with a sharp floor and rounded edges.
 /// @param start  position on the target that approximately corresponds to the start of the source.
 std::vector<PairedPlaces> corners_at_rounds(const Model& model, const LinkingSurface& link, double start)
 {
@@ -214,7 +215,8 @@ std::vector<PairedPlaces> corners_at_rounds(const Model& model, const LinkingSur
     return pairs_from(std::ranges::min(std::views::iota(std::size_t{0}, count), {}, off));
 }
 
-/// On bent walls without side lines, rotate the target by rotation-minimizing transport of a frame.
+/// On bent walls without side lines, let the target rim correspond to the source rim by a frame that is moved
+/// along the walls with minimal rotation (`LinkingMap::turn()`).
 void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext& context)
 {
     if (runs_straight(volume.model, link)) return;
@@ -228,9 +230,10 @@ void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext
     add_segments(volume.model, link, 0, link.source.length(), start, start + length);
 }
 
-/// Whether the only side line is the seam of a periodic face, and should not guide the sweep. It should not
-/// if it winds around the walls. It also should not if the walls bend and have several faces, because it
-/// would then shear their rows.
+/// Whether the only side line is the seam of a periodic face and should be ignored. A seam is ignored in
+/// these cases:
+/// - It winds around the walls.
+/// - The walls bend and have several faces; rows that follow the seam would then be sheared.
 bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     if (link.lines.size() != 1 || runs_straight(volume.model, link)) return false;
@@ -296,8 +299,8 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
     return link;
 }
 
-/// Check that the walls of a loop form a ring. If a tunnel leads through them (a bore from one wall to
-/// another), they cannot be mapped onto a strip.
+/// Check that the walls of a loop form a ring. Walls with a tunnel between them (a bore from one wall to
+/// another) cannot be mapped onto a strip.
 void check_ring(const Model& model, const std::vector<FaceId>& part)
 {
     if (euler_number(model, part) == 0) return;
