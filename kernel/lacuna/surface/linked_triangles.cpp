@@ -150,7 +150,7 @@ void LinkedTriangles::collapse(Index s)
     const Index g = twin(s), u = from(s), v = to(s);
     const double place = sides[index(g)].s; // position of v on the line that contains s
     const std::array<Vec3, 2> normal{sides[index(next(s))].normal, sides[index(g)].normal};
-    std::size_t beyond = 0; // the fan starts left of s and crosses the line of s once
+    std::size_t beyond = 0; // 0 on the left of s, 1 after the fan of triangles has crossed the line of s
     std::vector<Index> fan;
     each_out(u, [&](Index x) { fan.push_back(x); });
     std::ranges::rotate(fan, std::ranges::find(fan, s));
