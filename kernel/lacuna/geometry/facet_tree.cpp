@@ -284,7 +284,8 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
         }
         return true;
     };
-    // A pair is replaced by splitting the larger node, so the depth is at most twice the height of a tree.
+    // Each step splits the larger node of a pair, which gives two pairs. The stack therefore holds at most
+    // twice as many pairs as a tree has levels.
     std::array<std::pair<std::uint32_t, std::uint32_t>, 2 * kMaxDepth> stack;
     std::size_t depth = 0;
     stack[depth++] = {0, 0};

@@ -280,7 +280,9 @@ double step_to_flip(const Facets& facets, const Positions& from, const Positions
     return limit;
 }
 
-/// Quadratic approximation of the symmetric Dirichlet energy at `positions`: Σ area |W (J − R)|².
+/// Quadratic approximation of the symmetric Dirichlet energy near some positions: Σ area |W (J − R)|² over
+/// the triangles. J is the gradient of the map, R the rotation closest to J. The weights W are such that the
+/// approximation has the gradient of the energy at these positions (Rabinovich et al. 2017).
 class Proxy {
 public:
     explicit Proxy(const Facets& facets) : facets_(facets), size_(2 * (Index(facets.points.size()) - 1)) {}

@@ -86,7 +86,7 @@ struct ContactPair {
     std::array<std::string, 2> groups; ///< of the skins: first the slave's, whose nodes are constrained, then
                                        ///< the master's
     bool tied = true;
-    double tolerance = 0;              ///< maximum distance of tied slave nodes from the master [length]
+    double tolerance = 0;              ///< maximum distance of tied nodes from the master [model length]
     std::array<std::size_t, 2> sets{}; ///< in a deck: indices of the groups' sets of sides
 };
 

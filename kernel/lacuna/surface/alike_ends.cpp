@@ -18,8 +18,8 @@ using namespace topology;
 
 namespace {
 
-/// Vertices without a side line are paired only if their positions along the two rims differ by less than
-/// this share of the rim. Heuristic.
+/// Two vertices without a side line are paired only if their positions on the two rims, as shares of the
+/// rims' lengths, differ by less than this. Heuristic.
 constexpr double kFarRound = 0.125;
 
 /// Inner loops of two faces are matched if their vertices are closer to each other than this share of the
@@ -140,7 +140,8 @@ private:
                     else if (walk.empty() || !walk.back().rim || ends_.contains(use_from(model_, use)))
                         walk.push_back({use, true, use_from(model_, use)});
                 }
-                // A sequence that continues across the start of the loop is one item.
+                // If the sequence of rim edges at the end of the loop continues at its start, both are one
+                // item.
                 if (walk.size() > 1 && walk.front().rim && walk.back().rim &&
                     !ends_.contains(walk.front().from)) {
                     walk.front() = walk.back();
@@ -162,16 +163,17 @@ private:
         return true;
     }
 
-    /// Match the loops on both sides of a pair of vertices. A loop is found by the rim's edge use that leaves
-    /// the vertex: forward on the source, backward on the target.
+    /// Match the loops of the faces on both sides of a pair of vertices. At a vertex, a loop is found by the
+    /// edge use of the rim that leaves the vertex: in the rim's direction on the source, against it on the
+    /// target.
     bool match_at(const RimPair& pair)
     {
         for (const auto& [key, low] : place_) {
             if (key.first != pair.source || !walks_[low.first][low.second].rim) continue;
             for (const auto& [other, high] : place_) {
                 if (other.first != pair.target) continue;
-                // The source loop leaves the vertex along the rim; the target loop, reversed, arrives along
-                // it.
+                // The source's loop leaves the vertex along the rim. The target's loop runs in the opposite
+                // direction, so its item that arrives at the vertex corresponds.
                 const Walk& walk = walks_[high.first];
                 const std::size_t before = (high.second + walk.size() - 1) % walk.size();
                 if (walk[before].rim && !match(low, {high.first, before})) return false;
@@ -190,8 +192,8 @@ private:
         return !whole || match({low->second, 0}, {high->second, 0});
     }
 
-    /// Match one inner loop of two faces that are already matched, by the position of the loop after the
-    /// affine fit of the rims.
+    /// Match one inner loop of two faces that are already matched. An affine map of the source's rims onto
+    /// the target's rims is applied to the source's loop; the closest loop of the target's face corresponds.
     /// @return  whether a loop was matched; empty if an inner loop has no counterpart.
     std::optional<bool> match_inside()
     {
@@ -218,8 +220,8 @@ private:
         return false;
     }
 
-    /// Distance between the vertices of two loops, as a multiple of the loop's radius, if item `j` of the
-    /// target's loop corresponds to the first item of the source's loop.
+    /// Distance between corresponding vertices of two loops, divided by the loop's radius, under the
+    /// assumption that item `j` of the target's loop corresponds to the first item of the source's loop.
     double offset(const Walk& a, const Walk& b, std::size_t j)
     {
         if (!fit_) fit_rims();

@@ -90,8 +90,8 @@ private:
         }
     }
 
-    /// Record that the rows along `with` end on the edge `on`. This edge follows `with` in the loop
-    /// (`behind`), or precedes it.
+    /// Record that the rows along the edge `with` end on the edge `on`.
+    /// @param behind  whether `on` follows `with` in the loop; false: it precedes `with`.
     void add_end(FaceId face, EdgeUse with, EdgeUse on, bool behind)
     {
         const RimRows::Part* part = rows_.part_at(with.edge, with.reversed != behind ? 1.0 : 0.0);
@@ -235,7 +235,7 @@ const RimRows::Part* RimRows::part_at(EdgeId edge, double fraction) const
 {
     const auto found = parts.find(edge);
     if (found == parts.end()) return nullptr;
-    // Rounding can leave small gaps between parts, so the nearest part is taken.
+    // Take the nearest part: because of rounding, there may be small gaps between the parts.
     return &*std::ranges::min_element(found->second, {}, [&](const Part& part) {
         return std::max(part.from - fraction, fraction - part.to);
     });

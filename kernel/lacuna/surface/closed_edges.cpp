@@ -60,8 +60,8 @@ std::vector<Circle> circles(const Model& model, const EndsMap& map, bool target,
     return found;
 }
 
-/// Dissimilarity of two closed edges: the sum of the distance of their centres and the difference of their
-/// radii, divided by the larger radius.
+/// Dissimilarity of two closed edges: (distance of their centres + difference of their radii) / larger
+/// radius.
 double unlike(const Circle& a, const Circle& b)
 {
     return ((a.centre - b.centre).norm() + std::abs(a.radius() - b.radius())) /

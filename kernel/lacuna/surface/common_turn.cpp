@@ -39,8 +39,9 @@ std::vector<RimPlaces> pairs_of(std::span<const LinkingSurface> links)
     return pairs;
 }
 
-/// The rotation that maps the pairs' source points onto their target points. It first rotates the source's
-/// area vector onto the target's, and then by the best angle about this vector.
+/// The rotation that best maps the source points of pairs onto their target points: the smallest rotation of
+/// the source's area vector onto the target's area vector, followed by a rotation about the latter by the
+/// best angle. Empty if the pairs do not determine this angle.
 std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPlaces>& pairs, const Vec3& source_area,
                                            const Vec3& target_area)
 {
@@ -65,8 +66,8 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPlaces>& pairs, 
         along += pair.weight * a.dot(b);
         across += pair.weight * normal.dot(a.cross(b));
     }
-    // Concentric loops determine no rotation. Loops count as concentric if their centres are closer to each
-    // other than a thousandth of the section's size.
+    // Concentric loops do not determine the angle. Loops count as concentric if their centres are closer to
+    // each other than a thousandth of the section's size.
     const double size2 = std::min(source_area.norm(), target_area.norm());
     if (std::hypot(along, across) < 1e-6 * weight * size2) return std::nullopt;
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;

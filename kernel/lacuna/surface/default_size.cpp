@@ -16,8 +16,9 @@ using namespace topology;
 
 namespace {
 
-/// The default size is at least the diagonal of the rims' box divided by this number, even if the facets are
-/// finer. Heuristic: a square then gets 14 sides per edge, and a circle 44 sides in total.
+/// A facet side on an edge without kept nodes counts as at least the diagonal of the rims' bounding box
+/// divided by this. Heuristic: a finely faceted square then gets 14 sides per edge, and a circle 44 sides in
+/// total.
 constexpr double kMostAlong = 20;
 
 } // namespace

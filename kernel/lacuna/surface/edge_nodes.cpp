@@ -28,8 +28,8 @@ std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const dou
     std::vector<double> params;
     std::vector<std::size_t> inside;
     for (std::size_t i = 0; i < fractions.size(); ++i) {
-        // Close to an end, the curve differs from the vertex by rounding. The vertex is used there, so that
-        // all edges at it have the same point.
+        // At an end, the curve differs from the vertex by rounding. Use the vertex, so that all edges that
+        // meet there have the same point.
         if (fractions[i] < kSamePlace) {
             result[i] = line.front();
         } else if (fractions[i] > 1 - kSamePlace) {

@@ -59,7 +59,7 @@ void EdgeTurning::append(const Model& model, EdgeUse use)
         const double first = arc[1], last = arc[sides] - arc[sides - 1];
         turn[0] = first + last > 0 ? seam * first / (first + last) : 0;
         turn[sides] = seam - turn[0];
-    } else if (sides > 1) { // a half side at an end bends as much per length as the half side next to it
+    } else if (sides > 1) { // the half sides at the ends bend as much per length as the next half sides
         const double low = middle(1) - middle(0), high = middle(sides - 1) - middle(sides - 2);
         turn[0] = low > 0 ? turn[1] * middle(0) / low : 0;
         turn[sides] = high > 0 ? turn[sides - 1] * (arc[sides] - middle(sides - 1)) / high : 0;

@@ -22,8 +22,10 @@ bool odd(const Model& model, const Seeds& seeds, FaceId face)
     return sides_of(model, seeds, face) % 2 != 0;
 }
 
-/// Quads cannot fill a rim with an odd number of sides. If all sides of such a rim are given, divide the
-/// longest side that no kept quad uses, and add a note.
+/// Quads cannot fill a face with an odd number of sides in total. For each such face, divide the longest
+/// piece of its rim that only this face uses and whose number of sides the user did not request. With wedges,
+/// nothing is divided, and one cell of the face becomes a triangle. A note reports either change.
+/// @return  the faces that get a triangle.
 std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids, Seeds& seeds)
 {
     std::set<FaceId> triangles;

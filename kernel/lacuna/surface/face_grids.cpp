@@ -15,10 +15,11 @@ using namespace topology;
 
 namespace {
 
-/// A face is paved if its grid has a lower mean scaled Jacobian, or a lower share of even sides, than these
-/// values. They are low because a grid sweeps better than its quality on the source suggests. On the flat
-/// rings of a bent pipe, paving is better on the source (mean 0.95 against 0.80), but the grid gives better
-/// hexahedra (mean 0.94 against 0.88, worst 0.67 against 0.58). Heuristic.
+/// Minimum mean scaled Jacobian, and minimum share of even sides (`MappedFace::Shape`), of the grid on a
+/// mapped face. A face whose grid is worse is paved. The values are low, because hexahedra swept from a grid
+/// are better than the grid itself suggests. Example, on the flat rings of a bent pipe: paving has the better
+/// quads (mean 0.95 against 0.80), but the grid gives the better hexahedra (mean 0.94 against 0.88, worst
+/// 0.67 against 0.58). Heuristic.
 constexpr double kFairMean = 0.7, kFairEven = 0.6;
 
 /// Whether the size requires similar numbers of quads on opposite sides of the face. Otherwise a grid would
@@ -34,8 +35,11 @@ bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
     });
 }
 
-/// Whether a face gets a grid. There are three reasons: the grid is nearly as good as paving; the style or
-/// the numbers of quads across narrow places demand it; or the face cannot be flattened.
+/// Whether a four-sided face is mapped. One of these conditions is enough:
+/// - the style is not `automatic`, or a number of quads across narrow places is requested;
+/// - the grid has at least the quality `kFairMean`, `kFairEven`;
+/// - some facet is inclined by more than 60° to the face's mean normal, so that flattening for the paver may
+///   fail.
 bool is_fairly_mapped(const SeedTask& task, FaceId face, const MappedFace& mapped)
 {
     if (task.style != QuadStyle::automatic || task.sizing.gap > 0) return true;
@@ -48,8 +52,8 @@ void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
 {
     if (task.style == QuadStyle::free || seeds.kept.contains(face)) return;
     const auto corners = four_corners(task.model, face);
-    // On a submapped face, the number of columns through a narrow place depends on other sides, so such a
-    // face cannot meet `gap`.
+    // A submapped face cannot be given a number of quads across its narrow places, because this number
+    // follows from several sides.
     if (!corners && task.sizing.gap > 0 && !task.sizing.counts_across && task.style == QuadStyle::automatic)
         return;
     const std::vector<SidePair> opposite = corners ? side_pairs(task.model, face, *corners)

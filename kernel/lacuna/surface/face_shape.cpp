@@ -59,8 +59,8 @@ double FaceShape::volume_integral(const Vec3& origin) const
                    c = points[index(t[2])] - origin;
         sum += a.dot(b.cross(c)) / 6;
         if (bulge.empty()) continue;
-        // Over a facet, the mean of a quadratic bulge of one side is a third of its height at the side's
-        // middle.
+        // The mean over a facet of a quadratic bulge of one side is a third of the bulge at the side's
+        // midpoint.
         const Vec3 mean = (bulge[i][0] + bulge[i][1] + bulge[i][2]) / 3;
         sum += mean.dot((b - a).cross(c - a)) / 2;
     }

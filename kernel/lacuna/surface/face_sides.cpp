@@ -16,8 +16,8 @@ using namespace topology;
 
 namespace {
 
-/// If the lengths of opposite sides of a face differ by a larger ratio, the face is mapped only on request,
-/// because the lengths of its quads would differ by the same ratio. Heuristic.
+/// Maximum ratio of the lengths of opposite sides of a mapped face. If it is larger, the face is mapped only
+/// on request, because the lengths of its quads would have the same ratio. Heuristic.
 constexpr double kUnlike = 3;
 
 std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
@@ -39,8 +39,8 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
     const Index at = after.front();
     Vec3 normal = Vec3::Zero();
     for (const Triangle& t : model[face].triangles) {
-        // Only facets between the two edges at this corner count. At a seam, the face has other facets at the
-        // same vertex.
+        // Sum up the angles of the facets between the two edges at this corner. If the vertex is on a seam,
+        // the face has further facets at it.
         const bool touches = std::ranges::find(t, at) != t.end();
         const bool on_side = std::ranges::find(t, after[1]) != t.end() ||
                              std::ranges::find(t, before[before.size() - 2]) != t.end();

@@ -131,8 +131,8 @@ private:
         }
     }
 
-    /// Project all midpoints onto the exact edges and the exact surface, in one call for each. Earlier
-    /// results are reused.
+    /// Project the midpoints of all sides onto the exact edges and the exact surface, in one call for each
+    /// edge and for the surface. Results of earlier rounds are reused.
     void find_middles()
     {
         for (const auto& [edge, chain] : fine_.edges) {

@@ -121,7 +121,7 @@ private:
         return best;
     }
 
-    /// Whether a node is only there because a closed edge needs a start vertex.
+    /// Whether a node is only the start vertex of a closed edge: no other edge ends there.
     static bool closes_edge(const std::vector<FlatEdge>& edges, std::size_t node)
     {
         std::size_t ends = 0;
@@ -133,8 +133,8 @@ private:
         return closed && ends == 2;
     }
 
-    /// Snap vertices of the target to nearby vertices or edges of the source, and vertices of the source to
-    /// edges of the target.
+    /// Merge nodes and edges that are close to each other: vertices of the target with vertices or edges of
+    /// the source, and vertices of the source with edges of the target.
     void snap()
     {
         std::set<std::size_t> taken;

@@ -65,7 +65,8 @@ public:
         if (crossed_) refuse_no_rows(quads_[*crossed_]);
         const Ring low = joined(stubs, source.size());
         check_stubs(stubs, columns_at, source.size());
-        // Only columns that end before the source's rim are left: the others were walked from the source.
+        // Walks from the source have visited all other columns, so the remaining ones end before the source's
+        // rim.
         std::vector<Strip> hanging = strips_from(target);
         if (crossed_) refuse_no_rows(quads_[*crossed_]);
         check_stubs(hanging, {}, target.size());
@@ -199,8 +200,9 @@ private:
         if (points.size() > there.size()) there = points;
     }
 
-    /// Check that all strips have the same number of rows. Different numbers within one wall mean that its
-    /// quads are not in rows; different numbers on two walls mean that the walls were meshed separately.
+    /// Check that all strips have the same number of rows. There are two messages: if the numbers differ
+    /// within one wall, its quads are not in rows; if they differ between walls, the walls were meshed
+    /// separately.
     void check_rows(std::span<const Strip> strips)
     {
         std::map<FaceId, std::size_t> rows_of;
@@ -344,11 +346,12 @@ int tallest_stub(std::span<const GivenColumns> columns)
 
 /// The two stubs in one column, one from each rim, and the gap between them.
 struct StubColumn {
-    const GivenStub *low, *high; ///< either may be null
-    Vec3 open_from, open_to;
-    /// Number of rows that are part of both stubs; this occurs if the stubs belong to walls side by side.
+    const GivenStub *low, *high; ///< from the source's and from the target's rim; either may be null
+    Vec3 open_from, open_to;     ///< ends of the gap
+    /// Number of rows that both stubs have. This occurs where two walls lie side by side, of which one starts
+    /// at the source and the other at the target.
     std::size_t shared = 0;
-    bool is_open = true; ///< there is a gap between the stubs
+    bool is_open = true; ///< whether there is a gap between the stubs
 
     [[nodiscard]] std::size_t rows() const
     {
@@ -478,7 +481,7 @@ GivenRows given_columns(const OpenVolume& volume, std::span<const LinkingSurface
     }
     const std::set<EdgeId> kept = kept_edges(volume.model);
     const int rows = first != nullptr ? first->rows : common_line_rows(volume.model, links, kept);
-    if (rows <= tallest_stub(columns)) return result; // given quads take precedence over side lines
+    if (rows <= tallest_stub(columns)) return result; // the stubs' quads determine the rows, not side lines
     for (std::size_t b = 0; b < links.size(); ++b) {
         for (const LinkingLine& line : links[b].lines) {
             const int own = line_rows(volume.model, line, kept);

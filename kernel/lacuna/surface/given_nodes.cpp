@@ -25,7 +25,7 @@ constexpr std::size_t kMostPairs = 4'000'000;
 struct Break {
     /// Running lengths on both chains. The target's may exceed the length of its chain.
     double source = 0, target = 0;
-    bool given = false; ///< whether the interval to the next break is one side of a given quad
+    bool given = false; ///< whether the part of the rim to the next break is one side of a given quad
 };
 
 /// Divides the segments of one linking surface at given nodes.
@@ -79,7 +79,8 @@ public:
     }
 
 private:
-    /// On a ring without side lines, move its start on the target to a node of the target.
+    /// On a ring without side lines, move all breaks along the target so that the ring's start corresponds to
+    /// a given node of the target.
     void align_start(std::vector<Break>& breaks) const
     {
         const double length = link_.target.length();
@@ -103,9 +104,9 @@ private:
         for (Break& b : breaks) b.target -= turns * length;
     }
 
-    /// Position on the target that corresponds to the start of the ring. It is interpolated between the two
-    /// columns next to the start. If both rims have the same number of nodes between these columns, it is
-    /// found by counting nodes instead.
+    /// Position on the target that corresponds to the start of the ring. If both rims have the same number of
+    /// nodes between the two columns next to the start, it is found by counting nodes. Otherwise it is
+    /// interpolated between these columns.
     [[nodiscard]] double start_between_columns() const
     {
         const double s_length = link_.source.length(), t_length = link_.target.length();
@@ -134,8 +135,8 @@ private:
         return at;
     }
 
-    /// The breaks, with one added at every column. Where given quads extend from rim to rim, breaks that are
-    /// not at columns are removed.
+    /// Add a break at every column. Between columns with given quads from rim to rim, all other breaks are
+    /// removed.
     [[nodiscard]] std::vector<Break> with_columns(const std::vector<Break>& breaks) const
     {
         if (columns_.rows == 0) return breaks;
@@ -166,7 +167,7 @@ private:
         for (std::size_t i = 0; i < columns_.stubs.size(); ++i) {
             const GivenStub& stub = columns_.stubs[i];
             if (stub.faces.empty()) continue;
-            // The next stub on the same rim is the other end of the side.
+            // The side runs from this stub to the next stub on the same rim.
             std::size_t next = (i + 1) % columns_.stubs.size();
             while (columns_.stubs[next].from_target != stub.from_target)
                 next = (next + 1) % columns_.stubs.size();

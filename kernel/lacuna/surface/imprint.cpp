@@ -30,9 +30,10 @@ using namespace topology;
 
 namespace {
 
-/// Edges that shrink by more than this factor from one end to the other are not imprinted, because quads on
-/// that other end would have to be smaller by the same factor. A tube three radii deep inside an end stays
-/// below the limit. A tube 16 radii deep would need a ring of 49,000 sides. Heuristic.
+/// Maximum ratio of the length of an edge to the length of its image on the other end. Edges that shrink more
+/// are not imprinted, because quads on the other end would have to be smaller by the same factor. Examples:
+/// the floor edge of a tube that is three radii deep inside an end stays below the limit; at a depth of 16
+/// radii, a ring would need 49,000 sides. Heuristic.
 constexpr double kMostShrunk = 20;
 
 /// A chain in the plane: the edge of the source that it represents, and its image on the target.
@@ -72,7 +73,7 @@ public:
         check_sizes();
         split_faces();
         model() = std::move(builder()).finish();
-        for (LinkingSurface& link : result_.links) link.map.reset(); // of the model before
+        for (LinkingSurface& link : result_.links) link.map.reset(); // the maps refer to the old model
         return std::move(result_);
     }
 
@@ -90,15 +91,15 @@ private:
         result_.target_of.resize(model().faces.size());
         for (const auto& [low, high] : alike->faces) result_.target_of[low.index()] = high;
         for (const auto& [low, high] : alike->edges) {
-            // The target's loops have the opposite direction, so the target's edge is walked backwards.
+            // The target's loops run in the opposite direction, so its edges are traversed backwards.
             const bool along = low.reversed != high.reversed;
             result_.images[low.edge] = {high.edge, along ? 0.0 : 1.0, along ? 1.0 : 0.0};
         }
         return true;
     }
 
-    /// Refuse an edge whose image on the other end is far shorter than the edge. This happens if the edge
-    /// lies deep inside its own end, such as the floor of a long tube.
+    /// Refuse an edge whose image on the other end is far shorter than the edge. Example: the edge around the
+    /// floor of a long tube inside one end.
     void check_sizes() const
     {
         for (const auto& [edge, image] : result_.images) {
@@ -242,8 +243,7 @@ private:
         return at.barycentric[0] * uv[0] + at.barycentric[1] * uv[1] + at.barycentric[2] * uv[2];
     }
 
-    /// Shift parameters by the period of a seam if needed, so that they are on the same side of the seam as
-    /// `near`.
+    /// Surface parameters shifted by the period of the face's seam, if that brings them closer to `near`.
     Vec2 unwrapped(FaceId face, Vec2 uv, const Vec2& near)
     {
         const Vec2 range = seam_jump(face);
@@ -253,7 +253,7 @@ private:
         return uv;
     }
 
-    /// The jump of the parameters across a face's seam; zero without a seam.
+    /// The jump of the surface parameters across a face's seam; zero if the face has no seam.
     Vec2 seam_jump(FaceId face)
     {
         const auto [found, fresh] = seam_jump_.try_emplace(face, Vec2::Zero());
@@ -279,8 +279,8 @@ private:
 
     Edge new_edge(const FlatPiece& piece, EdgeId target, FaceId face)
     {
-        // At an end of the edge, take the parameters at a point slightly inside, because a point on a seam
-        // has two sets of parameters.
+        // A point on a seam has two sets of parameters. At the ends of the edge, take the parameters of a
+        // point slightly inside the edge instead.
         constexpr double kWayIn = 1e-6;
         const Face& on = base_.model[face];
         std::vector<Vec2> line{piece.line.front()};
@@ -398,8 +398,8 @@ private:
                 }
             }
         }
-        // If a region is bounded only by edges of the source, it belongs to the same target face as its
-        // neighbours.
+        // A region whose borders are all edges of the source alone lies inside a target face. Take the target
+        // face of a neighbouring region.
         for (bool changed = true; changed;) {
             changed = false;
             for (std::size_t r = 0; r < regions.size(); ++r) {

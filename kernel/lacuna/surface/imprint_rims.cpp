@@ -108,7 +108,7 @@ std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> lin
     }
     for (auto& [edge, list] : splits) {
         std::ranges::sort(list, std::ranges::greater{}, &Split::fraction);
-        double end = 1; // the part of the original edge from 0 up to here is not split yet
+        double end = 1; // end of the part of the original edge that is not split yet; the part starts at 0
         for (const Split& split : list) {
             pairs.push_back(
                 {split_at(model, edge, split.fraction / end, inner_at(model, inner, split.target)).vertex,

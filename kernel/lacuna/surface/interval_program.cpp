@@ -15,16 +15,16 @@ namespace lacuna::surface {
 
 namespace {
 
-/// Cost per side that a sum is below its floor: larger than any term of the objective. Heuristic.
+/// Cost of each side by which a sum is below its floor: larger than any term of the objective. Heuristic.
 constexpr double kBelowFloor = 1e6;
-/// Maximum number of free variables for which pairs of vectors are tried; a board of 32 × 32 faces has as
-/// many. A larger value gives better numbers but takes longer. Heuristic.
+/// Maximum number of free variables for which pairs of vectors are tried. A board of 32 × 32 mapped faces has
+/// 64. A larger value gives better numbers but takes longer. Heuristic.
 constexpr std::size_t kByTwos = 64;
 /// Additional cost of sides whose length is outside the accepted range. It is multiplied by the wanted number
 /// of sides and by the relative excess. Heuristic.
 constexpr double kOutOfSize = 2;
-/// Maximum coefficient. An equation that would get a larger one is left out; interval assignment does not
-/// produce such equations. The bound keeps products within the integer range.
+/// Maximum coefficient of an equation, so that products stay within the integer range. An equation that would
+/// get a larger coefficient is left out; interval assignment does not produce such equations.
 constexpr std::int64_t kMostCoefficient = 1 << 20;
 
 double wish_cost(double n, double wanted, double weight)
@@ -62,8 +62,8 @@ public:
         for (const Row& by : rows_) eliminate(row, by);
         std::erase_if(row.of, [](const auto& part) { return part.second == 0; });
         if (row.of.empty() || row.right % common_factor(row) != 0) return;
-        // A pivot of one keeps the other coefficients integral, so take the smallest coefficient, and of
-        // equal ones the first.
+        // Choose the variable with the smallest coefficient as pivot (of equal ones, the first). With a
+        // coefficient of one, the pivot is an integer for any integer values of the other variables.
         const auto pivot = std::ranges::min_element(row.of, {},
                                                     [](const auto& part) { return std::abs(part.second); });
         row.pivot = pivot->first;
@@ -88,7 +88,7 @@ public:
         terms_.push_back(std::move(term));
     }
 
-    /// Descend from the rounded wishes, and store the resulting values of the set's variables.
+    /// Run the local search from the rounded wishes, and store the resulting values of the set's variables.
     /// @return  false if there is no integer start or coefficients leave the range, or if the result violates
     ///          a floor or the lower bound of a variable
     bool solve(std::vector<int>& counts)
@@ -208,8 +208,8 @@ private:
                });
     }
 
-    /// Set the free variables to their wishes, adjusted so that the other variables become integers. Then
-    /// compute the other variables.
+    /// Set the start of the local search. Free variables get their rounded wishes, increased where this is
+    /// needed to make the pivots integers; then the pivots are computed.
     bool start()
     {
         for (std::size_t v = 0; v < own_.size(); ++v) count_.push_back(is_pivot(v) ? 0 : rounded_wish(v));
@@ -251,7 +251,7 @@ private:
         return true;
     }
 
-    /// Add the sums and differences of each two vectors that share a variable.
+    /// For each two vectors with a common variable, add their sum and their difference to the vectors.
     void add_pairs()
     {
         const std::size_t alone = vectors_.size();

@@ -11,8 +11,8 @@ namespace lacuna::surface {
 
 double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal)
 {
-    /// Minimum cosine of the angle between a triangle's normal and the face normal at its corners: 60°.
-    /// Curvature alone causes smaller angles, because the face turns by at most 30° along a side.
+    /// Minimum cosine of the angle between a triangle's normal and the face normals at its corners: 60°. A
+    /// larger angle is not caused by curvature, because the face turns by at most 30° along a side.
     constexpr double kAligned = 0.5;
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
     const Vec3 across = ab.cross(-ca);
@@ -150,7 +150,7 @@ void LinkedTriangles::collapse(Index s)
     const Index g = twin(s), u = from(s), v = to(s);
     const double place = sides[index(g)].s; // position of v on the line that contains s
     const std::array<Vec3, 2> normal{sides[index(next(s))].normal, sides[index(g)].normal};
-    std::size_t beyond = 0; // the fan starts left of s and crosses the line of s once
+    std::size_t beyond = 0; // 0 on the left of s, 1 after the fan of triangles has crossed the line of s
     std::vector<Index> fan;
     each_out(u, [&](Index x) { fan.push_back(x); });
     std::ranges::rotate(fan, std::ranges::find(fan, s));

@@ -48,8 +48,9 @@ std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangl
                            .remedy("repair or remesh the face"));
 }
 
-/// The coordinate s with natural boundary conditions on the target rim. It shows how the walls themselves
-/// rotate from the source to the target. One row for each model point.
+/// The harmonic coordinate s with fixed values on the source rim only, and natural boundary conditions on the
+/// target rim. Its values there show how the walls themselves rotate from source to target. One row for each
+/// model point.
 Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangle>& facets,
                                    const LinkingSurface& link, const std::vector<Index>& cut,
                                    const RunContext& context)
@@ -119,8 +120,8 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
     const std::vector<Triangle> facets = topology::facets_of(model, link.walls);
     const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
     const Eigen::MatrixXd s = natural_coordinate(model, facets, link, cut, context);
-    // At each point of the target rim, take the difference between its running length, as a share of the
-    // rim, and the free coordinate s. The differences are averaged as angles on a circle.
+    // At each point of the target rim, take the difference between the point's share of the rim's length and
+    // its coordinate s. The differences are averaged as angles on a circle.
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
     for (const ChainNode& p : chain_nodes(model, link.target)) {
@@ -196,8 +197,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     const Eigen::MatrixXd strip = geometry::solve_harmonic(problem, context);
     check_cancelled(context);
 
-    // Scale the strip to its proportions in space. Otherwise a wrong facet might be the closest one to a
-    // position just outside the strip.
+    // Give the strip the proportions of the walls in space. For a position just outside the strip, the
+    // closest facet of a distorted strip might be a wrong one.
     width_ = (link.source.length() + link.target.length()) / 2;
     double area = 0;
     for (const FaceId wall : link.walls) area += face_area(model, wall);
@@ -214,8 +215,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
             least = std::min(least, corners[t][i].x());
             most = std::max(most, corners[t][i].x());
         }
-        // Add a copy of the triangle for every whole turn by which it can be shifted and still overlap [0,
-        // 1].
+        // The strip is periodic. Add a copy of the triangle for every whole number of turns by which the
+        // shifted triangle overlaps the range [0, 1] of s.
         for (int shift = static_cast<int>(std::ceil(-most)); least + shift <= 1; ++shift) {
             const auto base = static_cast<Index>(flat_.size());
             for (const Vec2& c : corners[t]) flat_.emplace_back((c.x() + shift) * width_, c.y() * height_, 0);
@@ -296,8 +297,8 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
         widths.push_back(geometry::length(ring) / kFullTurn);
     }
-    // The centres of nested sections, as on a flat ring, define no axis. The normals of the sections then
-    // define the direction.
+    // The direction of the sweep at each section is that of the line through the centres. If the sections are
+    // nested, as on a flat ring, their centres define no line, and the normals of the sections are used.
     const bool leads = geometry::length(middles) > kLeads * *std::ranges::max_element(widths);
     const std::vector<Vec3> ways = leads ? geometry::ways_along(middles, widths) : areas;
     // For each section, shares of its length at even steps of the harmonic s.
@@ -306,8 +307,8 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
     std::vector<double> turned; // rotation of the frame relative to the harmonic s [turns]
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     for (std::size_t k = 0; k < rings.size(); ++k) {
-        // Project along the direction of the sweep, because sections are tilted if facets are coarse or rims
-        // are oblique.
+        // Project the section along the direction of the sweep, because it is inclined if facets are coarse
+        // or rims are oblique.
         for (Vec3& p : rings[k]) p -= ways[k].dot(p - middles[k]) * ways[k];
         round.push_back(geometry::arc_lengths(rings[k]));
         const double length = round.back().back();
@@ -322,7 +323,8 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         most_turned_ = std::max(most_turned_, std::abs(turn_));
         bends_ = bends_ || geometry::angle_between(ways.front(), ways[k]) > kParallel;
     }
-    std::vector<double> knots{0}; // side lines stay upright; columns between two side lines keep their share
+    // Columns between two side lines keep their share of the length between these lines.
+    std::vector<double> knots{0};
     for (const LinkingLine& line : link.lines)
         if (line.source_at > 0) knots.push_back(line.source_at / link.source.length());
     knots.push_back(1);
@@ -453,7 +455,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
             along += std::abs(b.x() - a.x()) * width_;
             up += b.y() - a.y();
         }
-        // Along its edges, a face with kept quads already has mesh nodes.
+        // The edges of a face with kept quads need not be followed: the given nodes already lie on them.
         const bool stays = std::ranges::any_of(model.uses_of_edge(use.edge), [&](const FaceUse& user) {
             return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
         });
@@ -490,7 +492,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
 
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
 {
-    // The ends of a piece belong to it. A column through such an end therefore crosses the ring.
+    // A column through an end of a piece crosses the ring, too.
     std::vector<Crossing> result;
     for (const Piece& piece : ring.pieces) {
         const Vec2 &a = piece.a, &b = piece.b;

@@ -81,7 +81,7 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
                                    "source or target"));
 }
 
-/// Keep the first side line, and all side lines that follow it in the same cyclic order around both rims.
+/// Keep the first side line. Of the others, keep those that come in the same order around both rims.
 std::vector<LinkingLine> in_order(std::vector<LinkingLine> lines)
 {
     std::vector<LinkingLine> kept;
@@ -108,8 +108,8 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
 
 void add_segments(const Model& model, LinkingSurface& link, double s0, double s1, double t0, double t1)
 {
-    // Without side lines, the walls determine which corners correspond. Then only corners that are close to
-    // each other are paired.
+    // Without side lines, the walls determine the correspondence of the rims, and only corners that are close
+    // to each other are paired.
     const Pairing pairing = link.lines.empty() ? Pairing::near : Pairing::in_order;
     std::vector<double> a = corners_between(model, link.source, s0, s1, true);
     std::vector<double> b = corners_between(model, link.target, t0, t1, false);
@@ -167,7 +167,57 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
     return places;
 }
 
-/// On bent walls without side lines, rotate the target by rotation-minimizing transport of a frame.
+/// Middles of the edges of a rim around which it turns like a corner, such as the rounds of a rounded
+/// rectangle [running length on the chain].
+std::vector<double> middles_of_rounds(const Model& model, const Chain& chain)
+{
+    std::vector<double> middles;
+    const std::size_t count = chain.uses().size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::vector<Index> before = use_points(model, chain.uses()[(i + count - 1) % count]);
+        const std::vector<Index> after = use_points(model, chain.uses()[(i + 1) % count]);
+        const Vec3 in = (model.at(before.back()) - model.at(before[before.size() - 2])).stableNormalized();
+        const Vec3 out = (model.at(after[1]) - model.at(after[0])).stableNormalized();
+        if (in.dot(out) < std::cos((180 - kCornerBelow) * kDegree))
+            middles.push_back((chain.start(i) + chain.start(i + 1)) / 2);
+    }
+    return middles;
+}
+
+/// Pair the corners of the source's rim with the middles of the rounds of the target's rim
+/// (`middles_of_rounds()`). Empty unless the target's rim has no corners and as many rounds as the source's
+/// rim has corners. Example: a box with a sharp floor and rounded edges.
+/// @param start  position on the target that approximately corresponds to the start of the source.
+std::vector<PairedPlaces> corners_at_rounds(const Model& model, const LinkingSurface& link, double start)
+{
+    const Chain &source = link.source, &target = link.target;
+    std::vector<double> corners;
+    for (std::size_t i = 0; i < source.uses().size(); ++i)
+        if (matching::is_corner(model, source.uses(), i)) corners.push_back(source.start(i));
+    for (std::size_t i = 0; i < target.uses().size(); ++i)
+        if (matching::is_corner(model, target.uses(), i)) return {};
+    const std::vector<double> rounds = middles_of_rounds(model, target);
+    const std::size_t count = corners.size();
+    if (count == 0 || rounds.size() != count) return {};
+    const auto pairs_from = [&](std::size_t first) {
+        std::vector<PairedPlaces> pairs;
+        for (std::size_t i = 0; i < count; ++i) pairs.push_back({corners[i], rounds[(first + i) % count]});
+        return pairs;
+    };
+    const auto off = [&](std::size_t first) {
+        double sum = 0;
+        for (const PairedPlaces& pair : pairs_from(first)) {
+            const double turns = (pair.target_at - start) / target.length() -
+                                 pair.source_at / source.length();
+            sum += std::abs(turns - std::round(turns));
+        }
+        return sum;
+    };
+    return pairs_from(std::ranges::min(std::views::iota(std::size_t{0}, count), {}, off));
+}
+
+/// On bent walls without side lines, let the target rim correspond to the source rim by a frame that is moved
+/// along the walls with minimal rotation (`LinkingMap::turn()`).
 void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext& context)
 {
     if (runs_straight(volume.model, link)) return;
@@ -181,9 +231,10 @@ void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext
     add_segments(volume.model, link, 0, link.source.length(), start, start + length);
 }
 
-/// Whether the only side line is the seam of a periodic face, and should not guide the sweep. It should not
-/// if it winds around the walls. It also should not if the walls bend and have several faces, because it
-/// would then shear their rows.
+/// Whether the only side line is the seam of a periodic face and should be ignored. A seam is ignored in
+/// these cases:
+/// - It winds around the walls.
+/// - The walls bend and have several faces; rows that follow the seam would then be sheared.
 bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     if (link.lines.size() != 1 || runs_straight(volume.model, link)) return false;
@@ -245,8 +296,8 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
     return link;
 }
 
-/// Check that the walls of a loop form a ring. If a tunnel leads through them (a bore from one wall to
-/// another), they cannot be mapped onto a strip.
+/// Check that the walls of a loop form a ring. Walls with a tunnel between them (a bore from one wall to
+/// another) cannot be mapped onto a strip.
 void check_ring(const Model& model, const std::vector<FaceId>& part)
 {
     if (euler_number(model, part) == 0) return;

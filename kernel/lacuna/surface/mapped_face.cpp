@@ -19,7 +19,7 @@ using namespace topology;
 
 namespace {
 
-/// Number of sides of the sample grid in both directions: enough to resolve a full turn. Heuristic.
+/// Number of sides of the sample grid in each direction: enough for a side that turns by 360°. Heuristic.
 constexpr std::size_t kSamples = 24;
 /// Number of lines between two opposite sides on which the size is sampled. Heuristic.
 constexpr std::size_t kLines = 3;

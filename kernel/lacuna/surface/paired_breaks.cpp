@@ -46,8 +46,8 @@ BreakPairs paired(const std::vector<double>& a, const std::vector<double>& b, do
 
 BreakPairs paired_breaks(const std::vector<double>& a, const std::vector<double>& b, Pairing pairing)
 {
-    // Leaving two breaks unpaired costs as much as pairing two breaks at twice this distance, as a share of
-    // the length. Heuristic.
+    // Cost of an unpaired break. Two breaks are paired if they are closer to each other than twice this, as a
+    // share of the segment's length. Heuristic.
     const double alone = pairing == Pairing::in_order ? 0.1 : 0.02;
     return paired(a, b, alone, a.size() == b.size() && pairing == Pairing::in_order);
 }

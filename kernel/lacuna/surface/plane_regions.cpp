@@ -56,7 +56,8 @@ std::vector<Walk> traced_loops(std::span<const PlaneChain> chains)
     const auto bounds = [&](const PlaneUse& use) {
         return use.reversed ? chains[use.chain].right : chains[use.chain].left;
     };
-    // A half-edge that arrives at a node is followed by the first half-edge clockwise from its twin.
+    // The half-edge after one that arrives at a node: start at its twin, which leaves the node, and turn
+    // clockwise to the next half-edge that leaves the node.
     const auto next = [&](const PlaneUse& use) {
         const std::vector<Spoke>& around = spokes.at(use.reversed ? chains[use.chain].from
                                                                   : chains[use.chain].to);

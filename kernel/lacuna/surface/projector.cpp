@@ -76,8 +76,8 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         hit.triangle = facet;
         return hit;
     };
-    // A point that is this close to a facet lies on it up to rounding. If it is also inside the facet, no
-    // other facet can be closer, and the search ends.
+    // A point within `rounding` of a facet lies on the facet. If all its weights are above kInside, it is not
+    // on the facet's border, so no other facet is closer, and the search ends.
     constexpr double kInside = 1e-6;
     const double rounding = 1e-15 * tree_.bounds().diagonal().norm();
     parallel_for(context, points.size(), 512, [&](std::size_t begin, std::size_t end) {
@@ -90,7 +90,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
                 if (inside && hits[i].distance2 <= rounding * rounding) continue;
                 hits[i] = tree_.closest(points[i], hits[i].distance2);
             }
-            // By rounding, no facet may be within the limit.
+            // Because of rounding, the limited search may find no facet.
             if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]);
         }
     });

@@ -64,7 +64,8 @@ double nearest_turn(double at, double to, double length)
     return at + std::round((to - at) / length) * length;
 }
 
-/// Move each end of a segment to the nearest of `vertices`, unless a vertex of this rim is already there.
+/// Move each end of a segment on one rim to the nearest of `vertices`, if the distance is below the share
+/// `kOneEdge` of their mean spacing. Ends at which an edge of the rim starts do not move.
 template <class Vertices>
 void snap(BreakPairs& ends, double std::pair<double, double>::*side, const Chain& chain,
           const Vertices& vertices)
@@ -120,7 +121,7 @@ bool holds(const BreakPairs& pairs, const std::pair<double, double>& wanted, con
     });
 }
 
-/// Add pairs at the starts of source edges to pairs around the whole ring.
+/// Close a list of pairs to a whole ring, and add a pair at the start of each source edge.
 BreakPairs with_starts(BreakPairs pairs, const LinkingSurface& link)
 {
     pairs.emplace_back(link.source.length(), pairs.front().second + link.target.length());
@@ -347,7 +348,7 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
         };
         if (!in_order || !std::ranges::all_of(high, is_met)) continue;
         const bool given = std::ranges::any_of(link.segments, &RimSegment::given);
-        // The columns of a wall with a given mesh are those of that mesh.
+        // A wall with a given mesh has the columns of this mesh, and none along creases.
         const bool meshed = std::ranges::any_of(link.walls,
                                                 [&](FaceId wall) { return volume_.model[wall].keeps_nodes; });
         const bool whole = !meshed && link.lines.empty() && !up.empty() && up.front().source_at == 0 &&

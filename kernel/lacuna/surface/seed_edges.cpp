@@ -23,8 +23,8 @@ namespace {
 /// have corners of 120° or more.
 constexpr int kFewestPerTurn = 6;
 
-/// A turn may exceed the number of sides by this part of a side without an additional side: it covers the
-/// sampling error of a curve. Heuristic.
+/// The number of sides that a turn requires is rounded up, unless it exceeds a whole number by less than
+/// this. The value covers the sampling error of a curve. Heuristic.
 constexpr double kPartOfSide = 0.05;
 
 /// Number of points on each piece at which the size is sampled. Heuristic.
@@ -63,8 +63,9 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
     }
 }
 
-/// Hexahedra cannot be swept from a given mesh of quads and triangles. If the user requested a new mesh of
-/// the face, add a note. Triangles of a face without quads only define its shape and are no mesh.
+/// Hexahedra cannot be swept from a given mesh of quads and triangles. If the style does not keep given
+/// meshes, add a note that the mesh of the face is not kept. Triangles of a face without quads are no mesh:
+/// they only define its shape.
 /// @throw NotSweepable  the face has a mesh of quads and triangles, and quads = "auto".
 void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
 {
@@ -116,7 +117,8 @@ void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
             to = to || std::abs(f - piece.to) <= slack;
             if (f > piece.from + slack && f < piece.to - slack) piece.kept.push_back(f);
         }
-        // A piece that is one side between two given nodes has no given node inside.
+        // Check the given nodes inside the piece. If the piece is already fixed by another face, the numbers
+        // must agree; a piece that is one side between two given nodes has none inside.
         if (!from || !to || (piece.fixed && piece.kept.size() != sides)) {
             throw NotSweepable(
                 Message("surface.kept_rim",
@@ -140,8 +142,8 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
     const EdgeTurning turning(task.model, edge);
     const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
-    // Only the excess of the opposite rim's turn is added to the turn of this rim: on an oblique end the rim
-    // turns unevenly, but by the same total.
+    // If the target's rim turns more than this rim, only the excess is added. Turns are compared over the
+    // whole piece, because on an oblique end the rim turns unevenly, but by the same total.
     const auto turn_between = [&](double from, double to) {
         return piece.follows ? 0 : turning.between(from, to);
     };
@@ -181,7 +183,8 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     piece.least = std::max(1, bends);
 }
 
-/// Add a note if edges whose nodes come only from triangles have sides longer than twice the size.
+/// Add a note if edges whose nodes are kept, but which no face with given quads uses, have sides longer than
+/// twice the size.
 void note_coarse_edges(const SeedTask& task, Seeds& seeds)
 {
     const auto has_quads = [&](const FaceUse& use) { return !task.model[use.face].given_quads.empty(); };

@@ -25,21 +25,22 @@ constexpr double kLineWeight = 1;
 /// side by side. Heuristic.
 constexpr double kHalves = kFullTurn / 3;
 
-/// Weight of the wish for a square core, relative to an edge. With a quarter of this weight, the numbers of
-/// sides of sectors around a common point alternate between 15 and 13.
+/// A sector or half disc has rows along its round side, and a core of grids with equal numbers of sides. This
+/// is the weight of the wish for these numbers, relative to the wish of an edge. With a quarter of this
+/// weight, the numbers of sides of sectors around a common point alternate between 15 and 13.
 constexpr double kEvenCore = 1;
 
-/// A sector that should have at least this number of quads gets numbers of sides that suit rows along its
-/// round side. Measured on quarters of a disc: for 30 wanted quads, there are 80 with this rule and 45
-/// without; for 12 wanted quads, 86 and 39. For 120 and more wanted quads, the rule comes closer in all
-/// cases.
+/// A sector (three sides, of which one is round) next to another free face gets numbers of sides for rows
+/// along its round side, if the size requires at least this number of quads. Measured on quarters of a disc.
+/// For few wanted quads, the rule gives too many: for 30 wanted quads, 80 with the rule and 45 without; for
+/// 12 wanted quads, 86 and 39. For 120 and more wanted quads, the rule comes nearer to the wanted number in
+/// all cases.
 constexpr double kQuadsForRows = 20;
 
-/// When numbers are repaired: weight of edges that are to be changed last, relative to other edges.
-/// Heuristic.
+/// In `make_even()`: weight of edges that should be changed last, relative to other edges. Heuristic.
 constexpr double kLastWeight = 10;
-/// Weight of the wish for half of a face's total, which only decides where the search starts: the weight is
-/// too small to affect the result otherwise.
+/// Weight of the wish for half of a face's total. This wish only determines the start of the search; its
+/// weight is too small to change the result otherwise.
 constexpr double kHalfWeight = 1e-6;
 
 /// A grid that fills a face or a part of it: the variables along its sides, in both directions.
@@ -53,7 +54,8 @@ struct Program {
     std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
     std::vector<FaceGrid> grids;         ///< all grids with which faces are filled
     double asked = 0;                    ///< number of quads wanted on faces filled by `grids`
-    /// If the program only repairs existing numbers of sides: the edges to be changed last. Otherwise null.
+    /// In `make_even()`, which changes numbers of sides that exist: the edges to be changed last. Otherwise
+    /// null.
     const std::set<EdgeId>* last = nullptr;
 };
 
@@ -142,7 +144,7 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
             {variables_of(seeds, pairs[0][0], program), variables_of(seeds, pairs[1][0], program)});
         double quads = quads_asked(task.model, seeds, face);
         for (std::size_t k = 0; task.sizing.counts_across && k < pairs.size(); ++k) {
-            // Quads are added across a narrow face; its sides along the face remain.
+            // The minimum number across a narrow face increases the number of quads in this direction only.
             double wanted = sides_asked(seeds, pairs[k][0]) + sides_asked(seeds, pairs[k][1]);
             for (const double sides : inside[k]) wanted += sides;
             const auto lines = static_cast<double>(2 + inside[k].size());
@@ -152,9 +154,11 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
     }
 }
 
-/// Whether a face is a large sector next to a free face. It must have three sides of which one is round, and
-/// share an edge with another free face, so that the edge's number must suit both. None of its sides may be
-/// given or requested. The face must be large enough for rows along the round side.
+/// Whether a face is a large sector next to another free face. Conditions:
+/// - The face has three sides, of which one is round.
+/// - No number of sides on its edges is given or requested, and no number of quads across narrow places.
+/// - The size requires at least `kQuadsForRows` quads, enough for rows along the round side.
+/// - It shares an edge with another free face, so that the number of this edge must suit both faces.
 bool is_sector_beside(const SeedTask& task, const FaceGrids& grids, const Seeds& seeds, FaceId face,
                       const std::vector<EdgeId>& edges)
 {
@@ -227,7 +231,7 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
     return false;
 }
 
-/// Add the constraints of free faces that share edges with mapped faces, so that quads can fill them.
+/// Add the constraints of free faces that share edges with mapped or submapped faces, and of large sectors.
 /// @return  edges whose numbers of sides are those of a grid
 std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds,
                                    Program& program)
@@ -276,12 +280,12 @@ double quads_of(const Program& program, const std::vector<int>& counts)
 }
 
 /// The numbers of sides with the least cost. If they give too many or too few quads, solve again with the
-/// wanted numbers multiplied by a factor. This is needed because three grids around a node have more quads
-/// than the sides of the face suggest.
+/// wanted numbers multiplied by a factor. Example: three grids around a node have more quads than the lengths
+/// of the face's sides suggest.
 std::vector<int> solve_for_quads(const Program& program)
 {
-    // The requested number of quads must be met within a quarter. The tolerance `kNear` and the number of
-    // corrections are heuristic.
+    // Results within `kQuadsOff` (a quarter) of the requested number of quads are preferred. Within `kNear`,
+    // no correction is tried. `kNear`, `kQuads` and `kTries` are heuristic.
     constexpr double kNear = 0.1, kQuads = 0.25;
     constexpr int kTries = 4;
     std::vector<int> best = solve(program, 1), counts = best;

@@ -28,11 +28,11 @@ using namespace topology;
 
 namespace {
 
-/// Maximum sag of a side as a share of the local width of the face. With sides on both rims, half of the
-/// width remains [-].
+/// Maximum sag of a side, as a share of the local width of the face [-]. If the sides of both opposite rims
+/// have this sag, half of the width remains between them.
 constexpr double kSagOfWidth = 0.25;
-/// Number of rim points for each mesh side of the requested size. With more points, changes of the size
-/// within a side would be resolved, but it would take more time. Heuristic.
+/// Number of rim points at which the width is measured, for each mesh side of the requested size. More points
+/// would show changes of the width within a side, but take more time. Heuristic.
 constexpr double kPointsPerSide = 4;
 /// Maximum distance of neighbouring rim points, as a multiple of the size there. Halfway between two points
 /// the size is then at most a third too large. Heuristic.
@@ -45,8 +45,9 @@ constexpr double kFacing = 0.8;
 /// Two points of one edge face each other only if the path along the edge is longer than this multiple of the
 /// chord. For a half circle the ratio is 1.57 [-].
 constexpr double kWayRound = 1.5;
-/// Inside a face, curvature does not reduce the size below this share of the requested size. Quads have the
-/// same size in both directions, so a sharp bend in one direction would need hundreds of them. Heuristic.
+/// Minimum size that the curvature of a face requests, as a share of the requested size. Quads have the same
+/// size in both directions, so a sharp bend in one direction would otherwise need hundreds of quads.
+/// Heuristic.
 constexpr double kLeastShare = 0.5;
 
 /// Keep the cause with the smaller size.
@@ -188,8 +189,8 @@ private:
                 sizes.push_back({at.point, share});
                 sizes.push_back({at.point + width / 2 * at.inward, share});
                 because(share);
-                // If the width is much smaller than the size, divide the interval, because the size would
-                // grow again between two samples.
+                // If the interval is longer than `kApart` times the new size, divide it: otherwise the size
+                // would grow too much between two samples.
                 if (to - from > kApart * share && length < static_cast<double>(kMostPoints) * (to - from)) {
                     parts.push_back({(from + to) / 2, to});
                     parts.push_back({from, (from + to) / 2});
@@ -240,8 +241,8 @@ private:
         }
         const bool at_start = a.from == b.from || a.from == b.to, at_end = a.to == b.from || a.to == b.to;
         if (!at_start && !at_end) return Opposite{other, width};
-        // Near a common corner of two edges the width is not defined. Two edges with both ends in common
-        // enclose the face, so the width is at least the face's mean width.
+        // Near a common corner of two edges, the width goes to zero and is ignored. If the edges have both
+        // ends in common, they enclose the face, and the width is at least the face's mean width.
         if (!at_start || !at_end || a.from == a.to) return std::nullopt;
         return Opposite{other, std::max(width, mean_width_)};
     }

@@ -54,7 +54,7 @@ void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const 
     piece.count = std::max(1, static_cast<int>(std::lround(sides_between))) + piece.rows();
 }
 
-/// Number of sides between the start and a share of the length, for a request with bias.
+/// Number of sides, not rounded, between the start and a share of the length, for a request with bias.
 double index_at(double share, const SidesAsked& asked)
 {
     if (asked.count < 2 || asked.bias == 1) return share * asked.count;
@@ -69,8 +69,9 @@ double length_at(double index, const SidesAsked& asked)
     return std::expm1(growth * index) / std::expm1(growth * asked.count);
 }
 
-/// Choose the node at the end of each piece. It is the nearest one according to the bias that leaves every
-/// piece at least one side.
+/// A requested number of sides is distributed over several pieces. For the end of each piece, choose the
+/// number of the node that lies there: the nearest node according to the bias, but so that every piece has at
+/// least one side.
 std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& asked)
 {
     std::vector<int> node{0};

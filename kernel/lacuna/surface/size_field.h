@@ -12,7 +12,7 @@ using SizeField = std::function<double(const Vec3&)>;
 
 /// Size fields on faces.
 struct SizeFields {
-    SizeField edge;  ///< length of the quads' sides
+    SizeField edge; ///< length of the quads' sides
     /// Height of the rows of quads along the loops; smoothing keeps these heights. Empty: no such rows.
     SizeField row{};
 };

@@ -16,25 +16,25 @@ namespace lacuna::surface {
 
 namespace {
 
-/// Sides longer than the first multiple of the size are split, and sides shorter than the second multiple are
-/// collapsed. Both halves of a split side are nearer to the size than the whole side was (@cite
-/// botsch_2004_remeshing).
+/// Sides longer than kLong times the size are split, and sides shorter than kShort times the size are
+/// collapsed (@cite botsch_2004_remeshing). With these values, both halves of a split side are nearer to the
+/// size than the whole side was.
 constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
 /// Number of rounds of splitting, collapsing, flipping and smoothing. On the bodies of the tests, the
 /// smallest angle did not change after the fifth round.
 constexpr int kRounds = 6;
-/// Tangent of the smallest angle that a collapse or a move may make: 15°. Later flips and moves approximately
-/// double such angles.
+/// Tangent of 15°: the smallest angle that a collapse or a move may create. Later flips and moves
+/// approximately double such small angles.
 constexpr double kPoorAngle = 0.27;
-/// Triangles with a smaller angle are improved one by one. The tangent of 30°.
+/// Tangent of 30°. After all rounds, triangles with a smaller angle are improved one by one.
 constexpr double kGoodAngle = 0.577;
 /// Number of rounds of these improvements. The last rounds find hardly anything to improve.
 constexpr int kImprovements = 6;
 /// Tangent of an angle that counts as zero.
 constexpr double kFlat = 1e-4;
 /// Maximum number of triangles, as a multiple of the estimate from area and size before the first round.
-/// Badly shaped triangles need at most twice the estimate. The limit ends splitting that would otherwise go
-/// on forever next to folded facets.
+/// Skins with badly shaped triangles need at most twice the estimate. Without a limit, splitting would not
+/// end next to folded facets.
 constexpr double kMostOfEstimate = 4;
 /// A skin with more triangles is refused, because the volume inside would have more than 1e7 tetrahedra.
 constexpr double kMostTriangles = 1e7;
@@ -397,8 +397,8 @@ void SkinRemesher::improve(bool moves)
 void SkinRemesher::run(const topology::Model& model)
 {
     flip_all();
-    // Computed once: where facets fold, each round adds triangles and area, so the limit would grow with
-    // them.
+    // Compute the limit before the first round: where facets fold, each round adds triangles and area, so a
+    // limit computed later would be too large.
     const double most = most_sides();
     for (int round = 0; round < kRounds; ++round) {
         split_long(most);
@@ -409,7 +409,7 @@ void SkinRemesher::run(const topology::Model& model)
     }
     improve(true);
     make_exact(model);
-    improve(false); // in a narrow place, the exact position of a node may be beyond the exact border
+    improve(false); // exact positions may make triangles worse: in narrow places, a node may cross a border
 }
 
 } // namespace lacuna::surface

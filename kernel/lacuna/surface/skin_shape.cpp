@@ -22,8 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// Number of samples of an exact curve for each side of a triangle. With four samples, the sag of the
-/// polyline is a sixteenth of the sag of the side.
+/// Number of samples of an exact curve for each triangle side along the curve. The sag of the polyline
+/// through four samples per side is a sixteenth of the sag of the side.
 constexpr double kSamplesPerSide = 4;
 /// Maximum number of samples per facet. Heuristic.
 constexpr double kMostSamples = 1000;

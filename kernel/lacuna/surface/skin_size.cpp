@@ -28,8 +28,8 @@ namespace {
 constexpr int kLeastPerTurn = 12;
 /// Maximum number of sides for a full turn. With 160 sides, a sphere loses 0.06 % of its volume.
 constexpr int kMostPerTurn = 160;
-/// Minimum size in narrow places, as a share of the requested size. The number of triangles along a rim is
-/// inversely proportional to it. Faces that are still narrower get flat triangles.
+/// Minimum size in narrow places, as a share of the requested size. A smaller value gives more triangles
+/// along the rims, in inverse proportion. Faces that are too narrow for this size get flat triangles.
 constexpr double kLeastShare = 0.1;
 /// Maximum sag of a side, as a share of the distance to the opposite skin [-]. Two opposite sides together
 /// then take at most half of the distance.
@@ -67,13 +67,13 @@ int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeF
     return first == counts.end() ? kMostPerTurn : *first;
 }
 
-/// Add sizes along the sides of facets on curved faces. Without them, a side may be so long that the sizes at
-/// its ends do not limit the size at its middle.
+/// Add sizes along the sides of the facets of curved faces. A facet side may be so long that the sizes at its
+/// ends do not limit the size at its middle.
 void add_curved(const Face& face, std::span<const PointCurvature> at, int per_turn, const SizeField& size,
                 std::vector<PointSize>& sizes)
 {
-    // Distance between added sizes, as a multiple of the size; halfway between two of them, the size has
-    // grown by 0.3 of itself.
+    // Distance between added points, as a multiple of the size. Halfway between two points, the size has
+    // grown by 30 %.
     constexpr double kApart = 2;
     if (at.empty()) return;
     const std::vector<Index> points = corner_points(face);
@@ -173,9 +173,9 @@ SizeField skin_sizes(const Model& model, std::span<const SkinLine> lines, std::v
         }
     }
 
-    // Given sides may be longer than requested. The size then decreases with the distance from them: it is
-    // the maximum of size - kGrading · distance. `GradedPoints` computes a minimum, so it gets negative
-    // sizes.
+    // Given sides may be longer than the requested size. The size then decreases with the distance from them:
+    // it is the maximum of (length of the given side) - kGrading · distance. `GradedPoints` computes a
+    // minimum, so it gets the negative lengths.
     std::vector<PointSize> coarse;
     for (const PointSize& side : given) {
         sizes.push_back(side);

@@ -24,22 +24,22 @@ namespace {
 
 /// Number of samples per side on an edge: enough for cubic interpolation. Heuristic.
 constexpr int kPerSide = 4;
-/// Maximum number of Gauss-Newton steps, and maximum number of times that the weight of evenness is
-/// increased. If more were needed, nodes would be far from evenly spaced. Heuristic.
+/// Maximum number of Gauss-Newton steps in a round, and maximum number of rounds. Each round doubles the
+/// weight of evenness. Heuristic.
 constexpr int kSteps = 12, kRounds = 5;
 /// Allowed range of a side's length, relative to its original length. It is narrower than the accepted range
 /// of sizes, 0.6 to 1.6.
 constexpr double kShortest = 0.75, kLongest = 1.35;
-/// Factor on the weight of evenness at the ends of an edge. Heuristic: with a factor of 1, a third of the
-/// rows along shared edges of flat rings are too low; with a factor of 4, the mean scaled Jacobian drops by
-/// 0.01.
+/// Factor on the weight of evenness of the first and the last side of an edge. Heuristic, measured on flat
+/// rings: with a factor of 1, a third of the rows along shared edges are too low; with a factor of 4, the
+/// mean scaled Jacobian drops by 0.01.
 constexpr double kEnds = 2;
 /// Nodes move only if the largest cosine decreases by at least this, which is 3°. Heuristic.
 constexpr double kWorthIt = 0.05;
 /// The lines between two opposite sides of a grid count as straight if the other two sides are nearly
 /// straight: at both ends, the direction of such a side deviates from its chord by at most this share of the
-/// chord. Only straight lines between rims are also made square in the sections above the source, because
-/// there the walls define only the ends of the lines. Heuristic.
+/// chord. In the sections above the source, only straight lines between rims are made square, because there
+/// the walls define the ends of the lines but not their directions. Heuristic.
 constexpr double kStraight = 0.1;
 using Line = SectionLine;
 
@@ -52,7 +52,7 @@ struct Node {
     std::size_t line = 0, node = 0;
 };
 
-/// A line of a grid between nodes of opposite sides.
+/// Rung: a line of a grid, between corresponding nodes of two opposite sides.
 struct Rung {
     Node from, to;
     /// For each end: the deviation of the line's direction there from its chord, on the source.
@@ -264,7 +264,7 @@ private:
         return worst;
     }
 
-    /// As above, with the angles between the edges and the columns, which are right angles before nodes move.
+    /// As above, including the angles between edges and columns. These are 90° before nodes move.
     [[nodiscard]] double worst_cosine(const std::vector<std::size_t>& lines,
                                       const std::vector<std::size_t>& rungs) const
     {
@@ -310,8 +310,8 @@ private:
     {
         for (const std::size_t l : lines) {
             const Line& line = lines_[l];
-            // If the nodes have the same positions on source and target, the term occurs only once, with full
-            // weight.
+            // Evenness on the source and on the target. If the nodes have the same positions on both, there
+            // is only one term, with the full weight.
             const double each = line.above.empty() ? weight : weight / 2;
             const auto visit_sides = [&](const std::vector<double>& u,
                                          const std::vector<std::size_t>& variable) {
@@ -339,8 +339,8 @@ private:
         });
     }
 
-    /// Visit the nodes whose columns are inclined because source and target positions differ. The inclination
-    /// is the displacement along the edge divided by the length of the column.
+    /// Visit the nodes that may have different positions on source and target, with the slope of their
+    /// columns along the edge: the displacement divided by the length of the column.
     template <class Visit>
     static void for_columns(const Line& line, const Visit& visit)
     {

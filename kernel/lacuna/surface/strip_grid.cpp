@@ -37,8 +37,8 @@ public:
     }
 
 private:
-    /// Assign a layer to each level: the nearest layer that leaves enough layers for all levels above and
-    /// below it.
+    /// Assign a layer boundary to each level: the nearest one that leaves enough layers for all levels above
+    /// and below.
     void plan_levels()
     {
         const auto layers = static_cast<int>(layers_);
@@ -70,7 +70,9 @@ private:
         }
     }
 
-    /// Heights of a column's nodes: the heights of the layers, shifted to the rings that cross the column.
+    /// Heights of a column's nodes: the heights of the layers, but with the given heights at some layers, and
+    /// linear interpolation between these.
+    /// @param at_layer  for each layer whose ring crosses the column: the t of the crossing.
     [[nodiscard]] std::vector<double> column_heights(const std::map<int, double>& at_layer) const
     {
         std::vector<std::pair<double, double>> knots{{0, 0}};
@@ -90,8 +92,8 @@ private:
         return result;
     }
 
-    /// As `column_heights()`, in the map's coordinate t. If no ring crosses the column, the heights are
-    /// shares of the length along the walls.
+    /// As `column_heights()`. But if no ring crosses the column, the heights are shares of the walls' length
+    /// and are converted to the map's coordinate t.
     [[nodiscard]] std::vector<double> map_heights(const std::map<int, double>& at_layer) const
     {
         std::vector<double> at = column_heights(at_layer);

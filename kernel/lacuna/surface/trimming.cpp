@@ -23,11 +23,12 @@ constexpr int kRounds = 3;
 /// Step of the finite differences for derivatives of a curve, as a share of a side. It balances truncation
 /// error and rounding error. Heuristic.
 constexpr double kDifference = 1e-2;
-/// Minimum number of points per thread: that of the search for closest facets, where a point costs as much.
+/// Minimum number of points per thread. It is the same as in the search for closest facets (`Projector`),
+/// because a point takes about the same time.
 constexpr std::size_t kGrain = 512;
 
-/// Maximum height of a convex curve over its chord, as a share of the chord, for the angles between curve and
-/// chord at both ends.
+/// Maximum height of a convex curve over its chord, as a share of the chord's length.
+/// @param first, second  angles between curve and chord at the two ends [radian].
 double height_over_chord(double first, double second)
 {
     constexpr double kSteep = 1.2; // for steeper angles, above nearly 70°, the result is the chord's length
@@ -124,8 +125,8 @@ void Trimming::add_loop(const Loop& loop, const std::vector<Index>& facet_of_sid
         side.inward_at_end = side.inward + sides_[first + after].inward;
         const Edge& edge = model[side.use.edge];
         if (edge.curve == nullptr) continue;
-        // At an end of an edge, the polyline's angle says nothing about the curve. The angle at the other end
-        // of the side is used instead.
+        // The angle between the curve and a side is estimated from the bend of the polyline. At an end of an
+        // edge, this bend says nothing about the curve, so the angle at the side's other end is used.
         const bool starts = sides_[first + before].use != side.use || before == i;
         const bool ends = sides_[first + after].use != side.use || after == i;
         const double at_start = turn(before, i), at_end = turn(i, after);
@@ -148,8 +149,10 @@ Trimming::Clearance Trimming::clearance_of(Index triangle) const
     return clear;
 }
 
-/// Whether a point is certainly inside the face. This is so if the distance from its facet is smaller than
-/// the facet's distance to the border, or if the point is above the interior of this facet.
+/// Whether a point is certainly inside the face. Let d be the distance of the point from its facet, plus the
+/// largest bulge of the border. One of these conditions is enough:
+/// - d is smaller than the distance of the facet from the border.
+/// - d is smaller than the distance of the closest point on the facet from the facet's sides.
 bool Trimming::is_clear(const Projected& point, bool measured) const
 {
     const double reach = (*point.at - point.from->point).norm() + most_bulge_;
@@ -232,7 +235,7 @@ void Trimming::settle(std::span<const Projected> points, std::span<Near> near) c
         Near& n = near[i];
         const Side& side = sides_[n.side];
         n.on_border = at[i];
-        // At an end of the curve, the rule for corners decides.
+        // At an end of the curve, the inward direction of the polyline's corner is kept.
         if (params[i] <= low || params[i] >= high) continue;
         const Vec3 tangent = rising == side.use.reversed ? Vec3(-places[i].tangent) : places[i].tangent;
         n.inward = side.normal.cross(tangent);

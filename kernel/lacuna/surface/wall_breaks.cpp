@@ -38,8 +38,8 @@ bool has_net(const Model& model, const LinkingSurface& link)
     return false;
 }
 
-/// Minimum number of layers for edges around the walls that end only on side lines. Count the vertices on
-/// each side line at which such edges start; the result is one more than the largest count.
+/// Minimum number of layers for edges that run around the walls and end on side lines. For each side line,
+/// the inner vertices at which such edges end are counted; the result is one more than the largest count.
 int layers_between_rings(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> along;
@@ -81,8 +81,8 @@ public:
     }
 
 private:
-    /// Whether a position of the rim is already used by another column whose range of heights overlaps that
-    /// of this column.
+    /// Whether another column already uses a position of the rim, so that this column cannot use it. Two
+    /// columns can use one position if their ranges of heights do not overlap.
     [[nodiscard]] bool is_taken(double at, std::size_t column) const
     {
         const WallNet::Column& own = net_.columns[column];
@@ -122,9 +122,9 @@ private:
         if (column.target_at) lead(*near, *way_to(*near, *column.target_at));
     }
 
-    /// The distance by which the target end of a break must move along the rim to meet the end of a column.
-    /// Empty if this target end is a vertex or a given node, or if other breaks are between the two
-    /// positions.
+    /// The start of segment i lies on the target at `target_from`. This is the distance by which this
+    /// position must move along the rim to meet the end of a column. Empty if it must not move: it is a
+    /// vertex or a given node, or another segment ends between the two positions.
     [[nodiscard]] std::optional<double> way_to(std::size_t i, double target_at) const
     {
         const double length = link_.target.length();
@@ -190,7 +190,8 @@ WallBreaks set_wall_breaks(const OpenVolume& volume, const SizeField& size, std:
         try {
             layers = std::max(layers, Breaker(volume, size, link, true).run());
         } catch (const NotSweepable& error) {
-            // If given nodes determine the columns, edges between void faces need not be followed.
+            // If given nodes determine the columns, columns cannot follow edges between void faces. These
+            // edges are then ignored.
             if (!has_given || error.code() != "surface.wall_edge") throw;
             layers = std::max(layers, Breaker(volume, size, link, false).run());
         }

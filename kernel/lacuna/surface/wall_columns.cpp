@@ -15,15 +15,16 @@ using namespace topology;
 
 namespace {
 
-/// Number of columns if there are no side lines: one every 45° on a round wall. Not measured.
+/// Number of columns of bent walls without side lines: one every 45° on a round wall. Not measured.
 constexpr int kPlaces = 8;
 
-/// Walls count as straight if their length differs from that of a straight line by less than this share. That
-/// is half the height of one of ten layers.
+/// Walls count as straight if their length differs by less than this share from that of straight lines
+/// between the rims. With ten layers, this is half the height of a layer.
 constexpr double kHardlyLonger = 0.05;
 
-/// Whether the walls are straight. Their area divided by the mean length of their rims is then the mean
-/// length of straight columns. Walls that bend or bulge have more area, and walls with a waist have less.
+/// Whether the walls are straight: their area is close to (mean length of the rims) · (mean length of
+/// straight columns). Walls that bend or bulge have more area, and walls with a waist have less.
+/// @param straight  total length of the straight columns.
 bool are_straight(const Model& model, const LinkingSurface& link, double straight, std::size_t columns)
 {
     double area = 0;

@@ -129,7 +129,7 @@ private:
             const EdgeId corner = corner_at(ring, vertex);
             if (!met && (!corner.valid() || on_line_.contains(vertex))) continue;
             if (on_source_.contains(vertex) || on_target_.contains(vertex)) {
-                // A column exists here, but the level ends on the rim.
+                // The level ends on the rim, where a column may start but no layer can follow the level.
                 refuse_wall_edge(model_, corner.valid() ? corner : level.edge,
                                  "runs around the walls and ends on a rim, where no layer can follow it",
                                  "let it end above or below the rim, or merge the two faces");
@@ -148,7 +148,7 @@ private:
         net_.levels.push_back(std::move(level));
     }
 
-    /// Of a ring that turns or ends at a vertex, an edge at this vertex. Invalid if the ring continues
+    /// If a ring turns or ends at a vertex: an edge of the ring at this vertex. Invalid if the ring continues
     /// smoothly there.
     [[nodiscard]] EdgeId corner_at(const LinkingMap::Ring& ring, VertexId vertex) const
     {
@@ -186,8 +186,8 @@ private:
             reach.low = std::min(reach.low, reach.at);
             reach.high = std::max(reach.high, reach.at);
         }
-        // Minimum extent of an edge of a ring in s, as a share of the length that the edge covers forwards
-        // and backwards. For a closed edge that returns to its start it is one half. Heuristic.
+        // Minimum range of s of an edge, as a share of the sum of its movements in s, forwards and backwards.
+        // An edge in one direction has 1; a closed edge that returns to its start has one half. Heuristic.
         constexpr double kStraightOn = 0.75;
         for (std::size_t i = 0; i < reaches.size(); ++i) {
             const Reach& reach = reaches[i];

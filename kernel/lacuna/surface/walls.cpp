@@ -136,8 +136,8 @@ private:
         for (std::size_t i = 0; i < count_; ++i) point(layer, i) = points[i];
     }
 
-    /// Whether the walls were made by moving the source along a path. They then have, between two side lines,
-    /// one face for each part of the path.
+    /// Whether the rows of the walls can be placed by a motion: one motion created all walls, and between
+    /// each two side lines there is one face for each part of the motion's path.
     [[nodiscard]] bool moves_along(const std::vector<std::vector<FaceId>>& panels) const
     {
         return motion_ && !panels.empty() && std::ranges::all_of(panels, [&](const auto& faces) {
@@ -145,8 +145,8 @@ private:
                });
     }
 
-    /// Place the rows by moving the source's rim along the path. The distance that remains at the end between
-    /// the moved rim and the target's rim is spread over the height.
+    /// Place the rows by moving the source's rim along the path. At the end, the moved rim may differ from
+    /// the target's rim. This difference is distributed over the rows in proportion to their heights.
     void mesh_by_motion(const std::vector<std::vector<FaceId>>& panels)
     {
         const geometry::Motion& motion = *motion_;
@@ -179,7 +179,8 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Refuse an edge that turns or ends between columns of given nodes, because these columns do not move.
+    /// Refuse an edge that turns or ends between columns of given nodes: a node would have to lie there, but
+    /// these columns cannot move.
     void check_stops() const
     {
         for (std::size_t i = 0; i < grid_.stops.size(); ++i) {

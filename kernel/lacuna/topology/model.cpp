@@ -344,7 +344,8 @@ Model ModelBuilder::finish() &&
         for (const EdgeUse& use : uses_of(face)) ++first_use_[use.edge.index() + 2];
     std::partial_sum(first_use_.begin(), first_use_.end(), first_use_.begin());
     uses_.resize(first_use_.back());
-    // first_use_[e + 1] is where edge e's next use goes, so in the end it is the start of edge e + 1.
+    // While uses are added, first_use_[e + 1] is the position of the next use of edge e. At the end it is the
+    // start of the uses of edge e + 1.
     for (const FaceId face : all_faces(made_))
         for (const EdgeUse& use : uses_of(made_[face]))
             uses_[first_use_[use.edge.index() + 1]++] = {face, use.reversed};

@@ -175,7 +175,7 @@ private:
                 result.closed = true;
                 return result;
             }
-            // Where walks touch, taking the sharpest right turn keeps each one a simple loop.
+            // Where walks touch, turn right as sharply as possible, so that each walk stays a simple loop.
             std::size_t next = steps_.size();
             double best = 0;
             const auto onward = from_.find(at);

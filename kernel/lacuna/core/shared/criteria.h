@@ -60,8 +60,9 @@ inline constexpr double kBendBelow = 75;
 /// its turn is smaller. For comparison: facets in files deviate by tenths of a degree.
 inline constexpr double kParallel = 0.02;
 
-/// A face is flat if the length of its summed area vector is more than (1 - this) times its area. Two normals
-/// agree if their cosine is more than 1 - this. The value corresponds to kParallel: cos x ≈ 1 - x² / 2.
+/// A face is flat if the length of its summed area vector is more than (1 - kFlatShare) times its area. Two
+/// normals agree if the cosine of their angle is more than 1 - kFlatShare. The value corresponds to
+/// kParallel, because cos x ≈ 1 - x² / 2.
 inline constexpr double kFlatShare = kParallel * kParallel / 2;
 
 // Poor quality: limits of the smallest scaled Jacobian of a cell, or of the smallest sine of the corner

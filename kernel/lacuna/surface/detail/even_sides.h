@@ -16,8 +16,9 @@ void make_halvable(const SeedTask& task, const FaceGrids& grids, const std::set<
                    Seeds& seeds);
 
 /// Make the total number of sides around every free face even, because quads cannot fill a face with an odd
-/// total. If all sides of such a face are given, the longest side that no kept quad uses is divided or, with
-/// wedges, one cell of the face becomes a triangle. A note reports either change.
+/// total. This is the last step, for faces whose given numbers `make_even()` could not change: the longest
+/// side on the rim that belongs to this face only is divided or, with wedges, one cell of the face becomes a
+/// triangle. Numbers that the user requested are not changed. A note reports either change.
 /// @throw NotSweepable "surface.sides_asked", "surface.odd_loop"  no edge can take another side.
 void finish_even(const SeedTask& task, const FaceGrids& grids, Seeds& seeds);
 

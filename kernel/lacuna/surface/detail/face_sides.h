@@ -37,10 +37,10 @@ std::optional<std::vector<std::size_t>> four_corners(const topology::Model& mode
 std::vector<SidePair> side_pairs(const topology::Model& model, FaceId face,
                                  const std::vector<std::size_t>& corners);
 
-/// The pairs of sides of a rectilinear face. The loops of such a face turn by multiples of a right angle at
-/// its vertices. The first half of a pair holds the edges of a loop that run in one direction, the second
-/// half the edges that run back. Empty if the angle at a vertex does not fit a grid, or if a loop does not
-/// turn exactly once.
+/// The pairs of sides of a rectilinear face: a face whose loops turn by multiples of 90° at its vertices. For
+/// each loop and each of the grid's two directions, there is a pair: first the edges of the loop that run in
+/// this direction, then the edges that run back. Empty if the angle at a vertex does not fit a grid, or if a
+/// loop does not turn by 360° in total.
 std::vector<SidePair> grid_sides(const topology::Model& model, FaceId face);
 
 /// Whether the lengths of opposite sides are similar.

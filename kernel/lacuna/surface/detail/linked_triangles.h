@@ -18,8 +18,8 @@ namespace lacuna::surface {
 class LinkedTriangles {
 public:
     struct Side {
-        Index from = -1; ///< node at which the side starts
-        Index twin = -1; ///< side of the adjacent triangle
+        Index from = -1;            ///< node at which the side starts
+        Index twin = -1;            ///< side of the adjacent triangle
         Index line = -1;            ///< the line that contains the side; -1: the side is inside a face
         double s = 0;               ///< position of `from` on that line
         Vec3 normal = Vec3::Zero(); ///< unit normal, at `from`, of the face that contains the triangle

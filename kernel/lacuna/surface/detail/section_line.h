@@ -28,9 +28,9 @@ struct SectionLine {
     /// For each section, points that divide each side of the piece evenly. Empty for sections whose points
     /// are not known; those of the source are always known.
     std::array<std::vector<Vec3>, kSections> points;
-    std::vector<double> at;    ///< u of each node on the source, ends included [sides]
-    std::vector<double> above; ///< u of each node on the target; empty: as on the source [sides]
-    std::vector<std::size_t> variable;       ///< for each node, the variable of its position `at`
+    std::vector<double> at;            ///< u of each node on the source, ends included [sides]
+    std::vector<double> above;         ///< u of each node on the target; empty: as on the source [sides]
+    std::vector<std::size_t> variable; ///< for each node, the variable of its position `at`
     std::vector<std::size_t> variable_above; ///< for each node, the variable of its position `above`
     /// At each node, the length of a side divided by the length of the column. The difference between the
     /// node's positions on target and source [sides], times this, is the slope of the column. Set if `above`

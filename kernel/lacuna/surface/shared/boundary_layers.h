@@ -25,7 +25,7 @@ std::vector<FaceId> faces_named(const topology::OpenVolume& volume, const FaceNa
 /// The wall next to an edge; invalid if no wall has the edge.
 FaceId wall_on(const topology::OpenVolume& volume, EdgeId edge);
 
-/// Whether a face of the volume has a tag, or one of the names of `FaceNames`.
+/// Whether some face of the volume has the given tag or the given name (see `FaceNames`).
 bool has_face(const topology::OpenVolume& volume, int tag);
 bool has_face(const topology::OpenVolume& volume, const std::string& name);
 

@@ -127,7 +127,8 @@ struct Seeds {
 ///    Then each face is classified as mapped, submapped or free. A face does not become mapped if its grid
 ///    would have poor angles or lengths in space.
 ///
-/// 2. One integer program determines the numbers of sides on the edges of these faces:
+/// 2. One integer program determines the numbers of sides on the edges of these faces (b and c only with
+///    `QuadStyle::automatic`):
 ///    a. mapped and submapped faces;
 ///    b. free faces that share an edge with a face of a;
 ///    c. large sectors that share an edge with another free face. Sector: a face with three sides, one of
