@@ -37,7 +37,8 @@ void move(sweep::Swept& swept, const Eigen::Affine3d& by)
     for (Quad& sides : mesh.middles.side_of) std::ranges::reverse(sides);
 }
 
-/// The nodes of a copy, made from those of the mesh. @param joined  nodes that an earlier copy has, ascending
+/// The nodes of a copy, made from those of the mesh.
+/// @param joined  nodes of this copy that an earlier copy already has, ascending
 mesh::LayeredNodes copied_nodes(std::shared_ptr<const std::vector<Vec3>> nodes, std::size_t row,
                                 const Eigen::Affine3d& by, std::vector<std::pair<Index, Vec3>> joined)
 {

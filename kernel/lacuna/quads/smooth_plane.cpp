@@ -116,7 +116,7 @@ public:
     }
 
 private:
-    /// The points of one sweep: an interval of numbers and a filter.
+    /// The points that one task sweeps: those of an interval of numbers that pass a filter.
     struct Range {
         std::size_t first, last;
         char inside; ///< 1: points inside a block; 0: the others, or all points if there are no blocks
