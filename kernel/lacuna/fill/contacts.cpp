@@ -50,7 +50,7 @@ void check_regions(std::span<const AssemblyMember> members, const ContactRequest
                         .remedy("name two of {}", short_list(known, std::identity())));
 }
 
-/// One skin of the whole mesh, and the face that each of its patches lies on.
+/// One skin of the whole mesh, and for each of its patches the face on which the patch lies.
 struct SkinOf {
     std::vector<mesh::SkinPatch>* patches;
     const std::vector<FaceId>* faces;

@@ -37,7 +37,8 @@ void move(sweep::Swept& swept, const Eigen::Affine3d& by)
     for (Quad& sides : mesh.middles.side_of) std::ranges::reverse(sides);
 }
 
-/// The nodes of a copy, made from those of the mesh. @param joined  nodes that an earlier copy has, ascending
+/// The nodes of a copy, made from those of the mesh.
+/// @param joined  nodes of this copy that an earlier copy already has, ascending
 mesh::LayeredNodes copied_nodes(std::shared_ptr<const std::vector<Vec3>> nodes, std::size_t row,
                                 const Eigen::Affine3d& by, std::vector<std::pair<Index, Vec3>> joined)
 {
@@ -163,7 +164,7 @@ InCommon in_common(const Skin& skin, const Eigen::Affine3d& by, double diagonal,
         found.of_copy.push_back(skin.sides[s]);
         found.of_mesh.push_back(skin.sides[other->second]);
     }
-    // Find nodes of one skin that lie on the other, which has no node there. One tree serves both directions.
+    // Find nodes of one skin that lie on a side of the other skin where the other skin has no node.
     const geometry::FacetTree tree(skin.places, skin.facets, context);
     const auto check = [&](const Vec3& place, const Vec3& shown) {
         if ((tree.closest(place).point - place).norm() > kFileAccuracy * diagonal) return;
@@ -180,8 +181,8 @@ InCommon in_common(const Skin& skin, const Eigen::Affine3d& by, double diagonal,
     return found;
 }
 
-/// Remove sides of the skin from all groups. If they are only a part of a patch, they become a patch of their
-/// own.
+/// Remove sides of the skin from all groups. If only some sides of a patch are removed, these sides become a
+/// new patch.
 void make_inner(std::vector<sweep::Swept>& parts, std::size_t first, std::span<const OfPart> sides)
 {
     std::map<std::pair<std::size_t, Index>, std::vector<Index*>> of_patch;

@@ -13,7 +13,7 @@ namespace lacuna::fill {
 /// @throw Cancelled
 std::string tree(const Volume& volume, const RunContext& context = {});
 
-/// The roles, the class with its reason, the void faces and the match of a volume.
+/// The roles, the class with its reason, the void faces and the match of a volume, as text.
 std::string describe(const Volume& volume);
 
 /// The faces of a model with their sizes, its free edges, gaps and cavities, a line each; `model:describe()`.

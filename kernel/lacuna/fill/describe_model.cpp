@@ -12,8 +12,8 @@ namespace lacuna::fill {
 
 namespace {
 
-/// Up to this number of faces, edges or gaps, the text lists each one; more are grouped or counted. Not
-/// measured.
+/// Up to this number of faces, edges or gaps, the text lists each of them. Larger numbers are grouped or only
+/// counted. Not measured.
 constexpr std::size_t kMostLines = 60;
 
 using closure::ModelFacts;

@@ -146,8 +146,8 @@ struct JoinedDeck {
     io::Deck deck;
     std::vector<mesh::PeriodicNodes> periodic; ///< of the deck's points
 };
-/// Join the parts of a mesh to a deck, one after the other, by `io::join_deck()`. Parts share the nodes that
-/// they share in the mesh. Contacts and sets of columns join too.
+/// Join the parts of a mesh to a deck, one after the other, by `io::join_deck()`. Nodes that parts share in
+/// the mesh are also shared in the deck. Contacts and sets of columns are added to the deck, too.
 /// @param model, scale, gone as for `io::join_deck()`; `gone` is null if nothing was left out.
 JoinedDeck joined_deck(const io::Deck& deck, const topology::Model& model, double scale,
                        const FilledParts& mesh, io::MeshDeckOptions options, const io::Deck* gone = nullptr,

@@ -30,7 +30,7 @@ FilledShell quads(const topology::Model& model, const std::vector<FaceId>& faces
     std::iota(deck.point_tags.begin(), deck.point_tags.end(), io::DeckTag{1});
     std::map<std::string, Index> regions;
     std::map<std::string, std::vector<io::DeckTag>> sets;
-    std::map<std::size_t, std::size_t> blocks; // by number of nodes of a cell
+    std::map<std::size_t, std::size_t> blocks; // for each number of nodes of a cell, the index of its block
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         const topology::Face& face = own[mesh.face[q]];
         const std::string name = face.name.empty() ? formatted("face:{}", face.tag) : face.name;

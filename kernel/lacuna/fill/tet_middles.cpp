@@ -149,7 +149,7 @@ private:
     enum class State : std::uint8_t {
         inside, ///< not on the skin
         open,   ///< on the skin, still straight
-        bent,   ///< moved onto the geometry
+        bent,   ///< on the skin, moved onto the geometry
         fixed,  ///< given by a neighbour or by a file
     };
 

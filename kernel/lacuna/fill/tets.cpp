@@ -134,7 +134,7 @@ void prove(FilledTets& tets, const RunContext& context)
 
 void require_quality(const FilledTets& tets, const sweep::SweepOptions& options)
 {
-    // Coordinates in single precision may invert a flatter cell.
+    // If the coordinates are written in single precision, a flatter cell may become inverted.
     const double least = std::max(options.min_scaled_jacobian, kFileAccuracy);
     if (tets.quality.min_scaled_jacobian < least)
         throw NotSweepable(Message("quality.below_limit",
@@ -221,8 +221,8 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
 
 namespace {
 
-/// Numbers of the middle nodes of skins. A middle node is found by the numbers of the corners of its side or
-/// quad.
+/// Numbers of the middle nodes of skins. A middle node is identified by the numbers of the corners of its
+/// side or quad.
 class MiddleNumbers {
 public:
     /// Add the numbers of a mesh's middle nodes. @param number number of each node of the mesh

@@ -253,7 +253,7 @@ private:
         parts.tolerance = model_.tolerance;
         parts.source = model_.source;
         parts.notes = model_.notes;
-        std::vector<FaceId> was; // by face of `parts`: the face of the original model
+        std::vector<FaceId> was; // for each face of `parts`, the original model's face
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
             std::vector<FaceId> kept;
             for (const FaceId face : all_faces(volumes_[b].model)) {

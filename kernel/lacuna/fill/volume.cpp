@@ -62,8 +62,8 @@ bool must_match(const Volume& volume, const closure::CloseOptions& options, cons
     return !(topology::free_edges(open).empty() && closure::has_steps(open, context));
 }
 
-/// Undo the closing with which the roles of a volume were found. An end that was a void face is missing
-/// afterwards.
+/// Undo the closing with which the roles of a volume were found. If an end was a void face, this end is
+/// missing afterwards.
 void reopen(Volume& volume, const RunContext& context)
 {
     topology::Roles roles;

@@ -32,8 +32,9 @@ void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>&
         for (const Index p : cells[c]) {
             if (p >= 0 && index(p) < soup.points.size() && soup.points[index(p)].allFinite()) continue;
             throw InvalidInput(
-                "topology.bad_point", "{} uses point {} of {}, which does not exist or is not finite",
-                NamedEntity{kind, static_cast<long long>(c) + 1}, found(p + 1), soup.points.size());
+                Message("topology.bad_point", "{} uses point {} of {}, which does not exist or is not finite",
+                        NamedEntity{kind, static_cast<long long>(c) + 1}, found(p + 1), soup.points.size())
+                    .remedy("check the points and cells"));
         }
     }
 }
@@ -249,7 +250,8 @@ void check_left(const FacetSoup& soup, const Facets& facets, double given)
 Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context)
 {
     if (soup.triangles.empty() && soup.quads.empty()) {
-        throw InvalidInput("topology.no_facets", "there are no facets to make faces of");
+        throw InvalidInput(Message("topology.no_facets", "there are no facets to make faces of")
+                               .remedy("give triangles or quads"));
     }
     check_cells(soup, soup.triangles, soup.triangle_label, "triangle");
     check_cells(soup, soup.quads, soup.quad_label, "quad");

@@ -179,9 +179,11 @@ private:
             const Index owner = found_[index(face)].cell; // the owner is the lower cell, because faces were
                                                           // collected cell by cell
             if (beside > 2)
-                throw InvalidInput("io.not_conformal",
-                                   "a face of {} belongs to {} cells, but at most {} can share a face",
-                                   numbered("cell", owner + 1), found(beside), needed("two"));
+                throw InvalidInput(
+                    Message("io.not_conformal",
+                            "a face of {} belongs to {} cells, but at most {} can share a face",
+                            numbered("cell", owner + 1), found(beside), needed("two"))
+                        .remedy("remove cells that occur twice"));
             if (beside == 2) return inner.push_back({owner, found_[alike[1].number].cell, face});
             Index entity = -1;
             for (const NumberedCell& of : alike.subspan(1)) {

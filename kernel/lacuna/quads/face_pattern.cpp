@@ -219,8 +219,8 @@ public:
     /// Number of soft turns of all loops.
     [[nodiscard]] std::ptrdiff_t turns() const { return soft_; }
 
-    /// Number of sides of the outer loop minus that of the hole that the grid lines follow, if these two
-    /// loops form a ring.
+    /// If the outer loop and the hole that the grid lines follow form a ring: number of sides of the outer
+    /// loop minus that of the hole.
     [[nodiscard]] int more_sides() const { return more_sides_; }
     /// Whether rows along one of the loops of a ring may change their number of sides.
     [[nodiscard]] bool may_change() const { return may_change_; }
@@ -267,7 +267,7 @@ private:
         return true;
     }
 
-    /// Mean offset between the grid coordinates of a loop's nodes and their goals.
+    /// Mean difference between the goals of a loop's nodes and their grid coordinates.
     static Vec2 way_to(const std::vector<Vec2>& goal, const GridLoop& grid)
     {
         Vec2 sum = Vec2::Zero();
@@ -406,8 +406,7 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeFiel
 }
 
 /// Whether nearly all quads of a mesh are square and have the requested size, and the rows along the boundary
-/// have the requested height. With higher bounds, the search continues more often and finds better meshes,
-/// but takes longer.
+/// are good. With higher bounds, the search continues more often and finds better meshes, but takes longer.
 bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
     constexpr double kMean = 0.92;

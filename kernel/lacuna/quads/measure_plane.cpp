@@ -52,7 +52,7 @@ std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<dou
     return count;
 }
 
-/// Find a corner that is not the number of a point, or that occurs twice in a quad.
+/// Find a corner of a quad whose point number is invalid, or that occurs twice in the quad.
 std::string find_bad_corner(const PlanarQuads& mesh)
 {
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {

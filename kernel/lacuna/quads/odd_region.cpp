@@ -22,11 +22,11 @@ namespace {
 
 /// Maximum number of sides that are tried.
 constexpr std::size_t kSidesTried = 4;
-/// Number of quads of a row, counted from the boundary, that may become the triangle. It limits the distance
-/// of the triangle from the boundary.
+/// Only this many quads of a row, counted from the boundary, are tried as the triangle, so the triangle is
+/// near the boundary.
 constexpr std::size_t kMostSteps = 8;
-/// Number of rings of neighbours around the closed row whose nodes are moved, and number of rounds of moves.
-/// `kFewRounds` applies if the mesh is smoothed later. More rings or rounds improve the worst cell only
+/// Number of rings of cells around the closed row whose nodes are moved, and number of rounds of moves. If
+/// the mesh is smoothed later, `kFewRounds` is used. More rings or rounds improve the worst cell only
 /// slightly.
 constexpr int kRings = 3;
 constexpr int kRounds = 30, kFewRounds = 3;
@@ -171,8 +171,9 @@ struct Row {
     Index last;                  ///< the quad that becomes the triangle
 };
 
-/// The part of a mesh that is changed by closing rows from a node, or that influences the result. Nodes and
-/// quads keep their order, so operations on the part give the same result as on the whole mesh.
+/// A window: the part of a mesh that closing rows at a node changes, and the cells around it that influence
+/// the result. Nodes and quads keep their order, so operations on the window give the same result as on the
+/// whole mesh.
 struct Window {
     PlanarQuads mesh;
     std::vector<char> on_rim;        ///< for each node of the part, whether it is on the region's boundary
@@ -262,7 +263,7 @@ std::vector<Row> rows_from(const Window& window)
     return rows;
 }
 
-/// Close a row. Empty if a cell beside the row would also lose a corner.
+/// Close a row. Empty if closing would also merge two corners of a cell beside the row.
 /// @param middle  the added node; all nodes before it are nodes of the region.
 std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on_rim, const Row& row,
                             Index middle, int rounds)
@@ -323,7 +324,7 @@ Row in_mesh(Row row, const Window& window)
 }
 
 /// The best result of closing a row in a mesh of the divided region. Empty if no row can be closed.
-/// @param than  if given, only a result that is better than this is returned.
+/// @param than  if given, only a result that is better than `than` is returned.
 std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle,
                                  const std::optional<Closed>& than, int rounds, const RunContext& context)
 {

@@ -158,7 +158,7 @@ private:
     PlanarQuads& mesh_; ///< its quads are replaced by those of `net_` at the end
     std::size_t fixed_;
     QuadNet net_;
-    /// For each boundary node: the minimum number of quads, and a better number.
+    /// For each boundary node: the minimum number of quads, and the number that suits its angle better.
     std::vector<int> needed_, better_;
 };
 

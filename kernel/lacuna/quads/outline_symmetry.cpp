@@ -331,8 +331,8 @@ bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
 /// Whether an axis halves a corner and the halves deviate too much from a multiple of a right angle.
 bool halves_corner(const PlanarRegion& region, const Symmetry& mirror)
 {
-    // 25°, in right angles. At a hole with eight sides, the halves of a corner deviate by 22.5°, which must
-    // be allowed.
+    // 25°, in right angles. The limit must allow a hole with eight sides, where the halves of a corner
+    // deviate by 22.5°.
     constexpr double kMostOff = 25.0 / 90;
     for (const std::vector<Index>& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {

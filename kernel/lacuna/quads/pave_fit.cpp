@@ -46,7 +46,7 @@ double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& sid
             }
         }
     }
-    // If all sizes deviate by a factor of two, the quality is halved.
+    // If all sizes deviate from the requested size by a factor of two, the quality is halved.
     return worst > 0 ? worst / (1 + stray / weight) : worst;
 }
 

@@ -15,9 +15,9 @@ GapFinder::GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops
     });
     low_ = box.min();
     diagonal_ = box.sizes().norm();
-    // Cells have the width of a mean side. There are at most kMostCells cells across, so that a long side is
-    // in a limited number of cells.
-    // More cells find sides faster, but need more memory and more time to fill.
+    // Cells are as wide as a mean side, but there are at most kMostCells cells in each direction, so that a
+    // long side is in a limited number of cells. With more cells, sides are found faster, but the cells need
+    // more memory and more time to fill.
     constexpr double kMostCells = 4096;
     cell_ = std::max({sum / count, box.sizes().maxCoeff() / kMostCells, std::numeric_limits<double>::min()});
     for_sides_of(loops, [&](Index from, Index to) {

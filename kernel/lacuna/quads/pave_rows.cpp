@@ -78,8 +78,8 @@ private:
     [[nodiscard]] int kind(std::size_t i) const { return std::min(quads_in(angles_[i % n_]), kMostQuads); }
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    /// Whether there are at least three edges between two ends. Each end takes a node from the sides before
-    /// and after it, so that a side of three edges keeps one edge.
+    /// Whether there are at least three edges between two ends. At each end, the row's inner side has one
+    /// edge less on both adjacent sides, so a side of three edges keeps one edge.
     [[nodiscard]] bool ends_far_apart() const
     {
         constexpr std::size_t kApart = 3; // edges between two ends
@@ -105,8 +105,8 @@ private:
         return static_cast<double>(squeezed) <= kMost * static_cast<double>(n_);
     }
 
-    /// Place the new nodes of the row. Above each node, they are placed in order from the edge after it to
-    /// the edge before it.
+    /// Place the new nodes of the row. If a node gets several new nodes, these are placed in order from the
+    /// edge after the node to the edge before the node.
     void place_nodes()
     {
         inner_.assign(n_, {});
@@ -115,9 +115,9 @@ private:
             if (quads == 1) continue;
             const Vec2 ahead = (at(i + 1) - at(i)).normalized();
             const double step = angles_[i] / quads;
-            // Where the edges bend slightly, the end of a spoke has the row's height above both edges. The
-            // clamps here and below limit the length of spokes at sharp bends. Lower clamps permit longer
-            // spokes.
+            // A spoke is the edge from a node to the new node above it. Where the boundary edges bend
+            // slightly, the end of a spoke is at the row's height above both edges. The clamps here and below
+            // limit the length of spokes at sharp bends.
             const double spoke = heights_[i] / std::clamp(std::sin(step), 0.7, 1.0);
             for (int k = quads - 1; k >= 1; --k) {
                 inner_[i].push_back(partial_.add(at(i) + rotated(ahead, k * step) * spoke));
@@ -191,7 +191,7 @@ int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>&
         for (std::size_t l = 0; l < loops.size(); ++l) next.push_back(inner[l] ? *inner[l] : loops[l]);
         const auto crossing = geometry::find_crossing(partial.points, next);
         if (!crossing) break;
-        // If two rows run into each other, the shorter loop gets no row, and all rows are placed again.
+        // If two rows cross, the shorter loop gets no row, and all rows are placed again.
         std::size_t out = crossing->loop_a;
         if (!inner[out] || (inner[crossing->loop_b] && loops[crossing->loop_b].size() < loops[out].size()))
             out = crossing->loop_b;

@@ -117,8 +117,8 @@ private:
 
 BoundarySizes sizes_with_boundary(const PlanarRegion& region)
 {
-    // Sides have about the requested length if both lengths differ by less than these factors. With higher
-    // factors, the size is graded less often, which leaves larger jumps of the size at the boundary.
+    // A side has about the requested length if the two lengths differ by less than these factors. With higher
+    // factors, the size is graded less often, so edge lengths jump more at the boundary.
     constexpr double kAlike = 1.6, kRingAlike = 1.75;
     const std::vector<BoundarySide> sides = sides_of(region);
     double sum = 0;

@@ -29,7 +29,7 @@ std::size_t longest_hole(const PlanarRegion& region)
     return longest;
 }
 
-/// Number of sides of a loop whose length is outside the accepted range. Each of these sides costs as much as
+/// Number of sides of a loop that are longer or shorter than accepted. Each of these sides costs as much as
 /// one missing side.
 double out_of_size(const CountedLoop& loop)
 {
@@ -145,9 +145,9 @@ std::optional<RingLoops> ring_loops(const CountTask& task, std::size_t about)
     return ring;
 }
 
-/// Numbers of sides for a ring with a single hole, if no equal number of quads in all rows is within
-/// `kRingSegment`. For symmetric loops, one side per corner is tried first, within a wider range. Otherwise
-/// rows change their number of quads.
+/// Numbers of sides for a ring with a single hole whose rows cannot all have the same number of quads within
+/// `kRingSegment`. For symmetric loops, one side from each corner to the next is tried first, within a wider
+/// range. Otherwise rows change their number of quads.
 /// @param symmetric  number of times that segments repeat along both loops.
 std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, const RingLoops& ring,
                                                       int symmetric, int changing)

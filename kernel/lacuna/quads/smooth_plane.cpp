@@ -18,9 +18,9 @@ namespace {
 /// If a point moves by less than this share of the sides around it, its neighbours are not moved again. With
 /// a higher value, smoothing ends earlier and meshes are less smooth.
 constexpr double kStill = 0.02;
-/// Over-relaxation of the steps, except in the first and the last sweep. With it, a tenth of the sweeps is
-/// enough to remove errors that span many quads. Measured: with 1.5 and 1.7 more sweeps are needed, and 1.9
-/// overshoots between poor quads.
+/// Over-relaxation: factor on the steps, except in the first and the last sweep. Compared with a factor of 1,
+/// a tenth of the sweeps is enough to remove errors that span many quads. Measured: with 1.5 and 1.7 more
+/// sweeps are needed, and 1.9 overshoots between poor quads.
 constexpr double kOverstep = 1.85;
 
 /// Whether some side is far shorter than every side between two fixed points. Both ends of such a side nearly
@@ -116,7 +116,7 @@ public:
     }
 
 private:
-    /// The points of one sweep: an interval of numbers and a filter.
+    /// The points that one task sweeps: those of an interval of numbers that pass a filter.
     struct Range {
         std::size_t first, last;
         char inside; ///< 1: points inside a block; 0: the others, or all points if there are no blocks

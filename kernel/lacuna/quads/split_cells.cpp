@@ -13,10 +13,12 @@
 namespace lacuna::quads {
 namespace {
 
-/// The inner edges that stay whole: the T-join of `split_cells()`. Breadth-first trees grow from all odd
-/// cells at once; the cells of a tree form a group. Where two trees meet, their groups are linked, starting
-/// with the shortest link. In the resulting tree of groups, every branch with an odd number of odd cells is
-/// joined to its parent by whole edges.
+/// Finds the inner edges that stay whole: the edges crossed by the T-join of `split_cells()`.
+///
+/// An odd cell (a terminal) has an odd number of boundary edges. Breadth-first trees grow from all odd cells
+/// at once; the cells of a tree form a group. Where two trees meet, their groups can be linked; the shortest
+/// links form a tree of groups. In this tree, every branch with an odd number of odd cells is joined to its
+/// parent group: the edges along the link's path stay whole.
 class WholeEdges {
 public:
     explicit WholeEdges(const MixedMesh& mesh)
@@ -215,9 +217,9 @@ private:
             made_.cells.push_back({corner[k], half[k], centre, half[(k + n - 1) % n]});
     }
 
-    /// Split a triangle with two whole sides. With the node in the middle of the third side, it is a quad
-    /// with a straight corner. A smaller quad is placed inside, with its corners on rays from the incircle's
-    /// centre, and four quads around it.
+    /// Split a triangle with two whole sides. Together with the node in the middle of the third side, the
+    /// triangle is a quad with a straight corner. A smaller quad is placed inside, with its corners on rays
+    /// from the centre of the incircle, and four quads surround the smaller quad.
     void split_triangle(const std::array<Index, 4>& corner, const std::array<Index, 4>& half)
     {
         std::size_t k = 0;

@@ -313,8 +313,8 @@ private:
     std::vector<std::vector<Index>> of_node_; ///< for each node above the boundary, its rows
     std::vector<double> asked_;               ///< requested size at each node, if sizes count
     std::size_t searches_ = 0;
-    /// Searches are numbered. For each node: the number of its last search that moved it, and of its last
-    /// search.
+    /// Searches are numbered. For each node: the number of the last search that moved the node, and the
+    /// number of the node's last search.
     std::vector<std::size_t> moved_, searched_;
     double floor_ = kGood;
 };

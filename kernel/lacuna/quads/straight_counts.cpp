@@ -32,7 +32,7 @@ struct HeadedLoops {
     std::vector<PatternLoop> loops;
     LoopFrame frame;
     TurnStyle style = TurnStyle::soft;
-    int fitting = 1;    ///< rows that suit the soft turns
+    int fitting = 1;    ///< number of rows that suits the soft turns (`fitting_rows()`)
     bool turns = false; ///< whether there are soft turns
 };
 

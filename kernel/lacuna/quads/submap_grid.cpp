@@ -98,7 +98,7 @@ SubmapGrid::SubmapGrid(const std::vector<GridLoop>& loops, int period) : period_
             }
         }
     }
-    // Maximum number of lines; only a misplaced hole makes the grid wider.
+    // Maximum number of grid lines in each direction. Only a misplaced hole needs more.
     constexpr std::int64_t kMost = 1 << 24;
     for (std::size_t k = 0; k < 2; ++k) {
         if (std::int64_t{high[k]} - low_[k] > kMost) return; // without cells, no loop fits
@@ -133,7 +133,8 @@ std::optional<std::size_t> SubmapGrid::cell_at(int x, int y, std::size_t k) cons
 
 bool SubmapGrid::find_cells(const std::vector<GridLoop>& loops)
 {
-    // The winding number of a cell is the sum of the changes at the horizontal sides in its column.
+    // The winding number of a cell is the sum of the directions (1 or -1) of the loops' horizontal sides
+    // below the cell, in its column.
     std::vector<int> change(in_.size(), 0);
     for (const GridLoop& loop : loops) {
         for (std::size_t i = 0, n = loop.positions.size(); i < n; ++i) {
@@ -238,8 +239,8 @@ void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
 {
     std::vector<double> weight(points.size(), 0);
     std::vector<Vec2> sum(points.size(), Vec2::Zero());
-    // A node belongs to the cells ahead of it on the line, and to the cells behind it. At a slit, the cells
-    // ahead and behind have different nodes.
+    // At a grid point, the cells ahead on the line and the cells behind may have different nodes, namely at a
+    // slit.
     const auto along = [&](int lines, int length, const auto& node, const Sides& far, const Sides& near) {
         const auto ahead = [&](int l, int i) { return node(l, i, far); };
         const auto behind = [&](int l, int i) { return node(l, i, near); };

@@ -119,8 +119,8 @@ std::size_t symmetrise(PlanarQuads& mesh, std::size_t fixed, std::span<const Sym
         made.points[p] = share * sum;
     }
     // After complete smoothing, nodes are close to the means of their images, and moving them to these means
-    // costs no quality. If smoothing stopped early, the moves may cost quality. The mesh is then left
-    // unchanged.
+    // does not reduce the quality. If smoothing stopped early, the moves may reduce the quality; the mesh is
+    // then left unchanged.
     constexpr double kWorse = 0.01; // accepted decrease of the smallest scaled Jacobian; not measured
     const double before = least_scaled_jacobian(mesh.points, mesh.quads);
     if (least_scaled_jacobian(made.points, made.quads) < before - kWorse) return 1;

@@ -15,8 +15,8 @@ namespace {
 /// larger slant are excluded.
 constexpr double kMostSlant = 0.7;
 
-/// Twice the foot that `spoke_feet()` finds for side i: the sum of the numbers of edges of sides i, i + 2, i
-/// + 4 …, with alternating signs.
+/// Twice the foot that `spoke_feet()` finds for side i: the sum of the numbers of edges of sides i, i + 2,
+/// i + 4 …, with alternating signs.
 int twice_foot(const SideCounts& counts, std::size_t i)
 {
     const std::size_t n = counts.count;

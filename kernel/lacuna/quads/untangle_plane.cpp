@@ -18,7 +18,8 @@ namespace {
 
 /// Weight of the area term relative to the shape term, from Garanzha et al.
 constexpr double kAreaShare = 1.0 / 128;
-/// Smallest ε. With a lower value, the energy is closer to a true barrier but worse conditioned.
+/// Smallest regularisation ε. With a lower value, the energy is closer to a true barrier, but the
+/// minimisation is worse conditioned.
 constexpr double kLeastEpsilon = 1e-3;
 /// Number of steps that L-BFGS stores, and number of steps in a round of constant ε. Not measured.
 constexpr std::size_t kMemory = 8;
@@ -33,7 +34,7 @@ constexpr double kLeastGain = 1e-5, kLeastRise = 1e-4;
 /// fails, in the second.
 constexpr std::array<int, 2> kRings{3, 10};
 
-/// A quad, and the length that its corners are relative to.
+/// A quad, and its reference length: determinants of its corners are divided by the square of this length.
 struct ReferenceQuad {
     Quad corners;
     double inverse; ///< 1 / reference length

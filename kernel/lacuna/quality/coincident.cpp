@@ -31,7 +31,7 @@ struct Entry {
 /// Hashes computed in the first pass over a chunk.
 struct ChunkHashes {
     std::array<std::uint32_t, kChunk> first; ///< for each point
-    std::vector<Entry> more;                 ///< for points near a second cube
+    std::vector<Entry> more;                 ///< for points that are also entered in a second cube
     std::array<std::uint32_t, kBins> count{};
 };
 

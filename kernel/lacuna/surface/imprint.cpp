@@ -481,8 +481,9 @@ private:
             throw NotSweepable(
                 Message("surface.not_imprinted",
                         "{} lies inside one end and cannot be imprinted on the other: the part "
-                        "it cuts off on {} has no valid outline",
+                        "that its imprint cuts off on {} has no valid outline",
                         entity_of(builder(), edge), entity_of(base_.model, of))
+                    .remedy("choose other faces as source and target")
                     .attempt(error.message()));
         }
         for (std::size_t p = places.size(); p < made.points.size(); ++p)

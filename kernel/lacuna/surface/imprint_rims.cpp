@@ -61,6 +61,7 @@ EdgeSplit split_at(Model& model, EdgeId edge, double fraction, EdgeId because)
                     "{} lies inside one end and cannot be imprinted on the other: {} cannot be "
                     "split there",
                     entity_of(model, because), entity_of(model, edge))
+                .remedy("choose other faces as source and target")
                 .attempt(error.message()));
     }
 }

@@ -58,9 +58,9 @@ Volume sealed_whole(const Volume& volume, const RunContext& context);
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name);
 
-/// Whether a volume must be swept in pieces, and these pieces. They are made by `closure::cut_into_pieces()`
-/// or, for class 0, are the halves of a full turn.
+/// Whether a volume must be swept in pieces, see `cut_into_pieces()`.
 bool has_pieces(const Volume& volume, const RunContext& context);
+/// The pieces of a volume: those of `closure::cut_into_pieces()` or, for class 0, the halves of a full turn.
 std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunContext& context);
 
 /// Call `take` with partitions of a sealed volume, made by `closure::partitions()`, until `take` returns

@@ -18,10 +18,10 @@ struct ToFill {
     const topology::OpenVolume* volume = nullptr; ///< its roles do not matter
     std::string region;                           ///< its name
     std::string whole;                            ///< volume that it is a piece of; empty: none
-    bool alone = false;                           ///< the only volume, or a piece of the only volume
-    Message why;                                  ///< why it is not swept
-    std::vector<surface::FixedFace> fixed;        ///< the meshes of its neighbours on shared faces
-    const sweep::SharedMiddles& middles;          ///< at order 2: middle nodes of the meshes made before
+    bool alone = false;                    ///< whether it is the only volume, or a piece of the only volume
+    Message why;                           ///< why it is not swept
+    std::vector<surface::FixedFace> fixed; ///< the meshes of its neighbours on shared faces
+    const sweep::SharedMiddles& middles;   ///< at order 2: middle nodes of the meshes made before
 };
 
 /// The quads and triangles of a mesh on its face `there`, oriented for the neighbour, whose face `own` is the

@@ -13,7 +13,7 @@ namespace lacuna::quads::cleaning {
 /// A patch of quads with a single outline.
 struct QuadPatch {
     std::vector<Index> quads;
-    std::vector<Index> touched;       ///< points, in the order in which they were added
+    std::vector<Index> touched;       ///< points of these quads, in the order in which they were added
     std::vector<Index> loop;          ///< points of the outline; the patch is on the left
     std::vector<std::size_t> corners; ///< positions in the loop
     /// Number of irregular points that a filling may change: those inside the patch, and those of its outline

@@ -93,8 +93,8 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
 /// @throw Cancelled
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range);
 
-/// Add one side along a heading and one in the opposite direction, or remove both, whichever costs less. Does
-/// nothing if neither is allowed.
+/// Add one side along a heading and one side in the opposite direction, or remove one of each, whichever
+/// costs less. Do nothing if neither is allowed.
 /// @param quarter  0 or 1
 void change_both(const CountTask& task, CountedLoop& loop, int quarter);
 

@@ -8,18 +8,19 @@
 
 namespace lacuna::quads {
 
-/// Fill a region with one grid, or with a few. The grid is bent so that its lines follow the boundary. All
-/// suitable ways are tried.
+/// Fill a region with one grid, or with a few grids. Grids are bent so that their lines follow the boundary.
+/// Several grids are tried; for each, the steps are:
 ///
-/// 1. Every boundary side gets one of four headings, by dynamic programming over its direction and the angles
-///    at its ends. Directions are measured relative to circles around a hole, or to the region's main
-///    direction.
-/// 2. If the headings turn at a node where the boundary does not, the turn is soft: one to three rows of
-///    quads are placed along the boundary up to the next corners, and the grid turns behind these rows. It
-///    turns at a node of three quads where the region bulges, and at a node of five quads where the region is
-///    bent inward. Other irregular nodes do not occur, so there are as few as the boundary's corners allow.
-/// 3. Soft turns are moved along the loop until it closes in the grid. If that is not enough, other turns are
-///    moved too, as long as no angle falls below 54° or exceeds 126°.
+/// 1. Every boundary side gets a heading, one of the four grid directions. Dynamic programming chooses the
+///    headings that fit the directions of the sides and the angles between them (`head_loop()`). Directions
+///    are measured relative to circles around a hole, or to the region's main direction.
+/// 2. Where the headings turn but the boundary does not, the turn is soft: one to three rows of quads are
+///    placed along the boundary up to the next corners, and the grid turns behind these rows. The grid then
+///    has a node of three quads where the region bulges, and a node of five quads where the region is bent
+///    inward. There are no other irregular nodes, so their number is the smallest that the boundary's corners
+///    allow.
+/// 3. Soft turns are moved along the loop until the loop closes in the grid. If that is not enough, other
+///    turns are moved too, as long as all angles stay between 54° and 126°.
 /// 4. Holes are placed in the grid at the interpolated grid coordinates of their boundary.
 /// 5. The grid's cells within the loops become the quads. Inner nodes are smoothed.
 ///
@@ -35,13 +36,13 @@ namespace lacuna::quads {
 /// irregular nodes for each round loop.
 ///
 /// Ends of 135° are tried as soft turns first. Unless this gives a mesh of nearly square quads, they are
-/// tried as hard turns. After that, headings with fewer soft turns that fit almost as well are tried, as at
-/// the blunt end of a slit.
+/// tried as hard turns. After that, headings with fewer soft turns that fit almost as well are tried
+/// (`TurnStyle::few_soft`), for example at the blunt end of a slit.
 /// @return  valid meshes, the most promising first: meshes with grid lines around a hole, then meshes with
 ///         straight grid lines, both in order of their number of rows. The search stops after a mesh that
 ///         cannot be improved much. Empty if the numbers of sides fit no grid, or quads would fold.
 /// @pre   loops as `pave()` requires them.
-/// @note  Deterministic. O(quads), plus O(outer nodes × hole nodes), for each way.
+/// @note  Deterministic. O(quads), plus O(outer nodes × hole nodes), for each grid that is tried.
 std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunContext& context = {});
 
 } // namespace lacuna::quads

@@ -32,21 +32,22 @@ struct RingWidths {
 RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& outer,
                        const std::vector<Index>& inner);
 
-/// Whether a loop runs around without a turn.
+/// Whether a loop runs around the ring without a turn of its headings.
 bool runs_round(const PatternLoop& loop);
 
-/// Let a loop without turns step inward by some rows on the part within `half` nodes of `middle`, and outward
-/// again, with two soft turns for each step. Its length along the grid decreases by twice as many sides.
+/// Let a loop without turns step inward by `rows` rows on the part within `half` nodes of `middle`, and step
+/// outward again at the end of this part. Each step consists of two soft turns. The number of sides of the
+/// loop along the grid decreases by twice the number of rows.
 /// @return false if the part is too short.
 bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows);
 
 /// Place rows along a loop without turns until its number of sides has changed by `by`.
 ///
 /// The first row has as many quads as the loop has sides, so no irregular node lies on the boundary. Each
-/// further row turns at `corners` evenly spaced nodes; the last row may turn at fewer. If the turn is an end
-/// of the grid, it removes two sides; if it is a corner, it adds two. The turns of successive rows lie above
-/// each other. Each such column of turns has one node of three quads and one node of five quads. The nodes of
-/// each row are evenly spaced.
+/// further row turns at `corners` evenly spaced nodes; the last row may turn at fewer nodes. A turn that is
+/// an end (one quad) removes two sides; a turn that is a corner (three quads) adds two sides. The turns of
+/// successive rows lie above each other. Each such column of turns contains one node of three quads and one
+/// node of five quads. The nodes of each row are evenly spaced.
 /// @param by  even number of sides to add (> 0) or remove (< 0), at least twice `corners`.
 /// @return false if `by` or `corners` is not allowed, if turns would be less than three sides apart, or if a
 ///         row would have fewer than three nodes.
