@@ -60,7 +60,7 @@ enum class Quads { automatic, paved, mapped, gmsh, keep };
 enum class Interior {
     automatic, ///< the best known method
     affine,    ///< for comparison: the affine fit alone
-    residual,  ///< for comparison: the fit with the rim's residual spread over it
+    residual,  ///< for comparison: the affine fit, with its residual at the rim spread over the inside
     normals,   ///< for comparison: the advance along local normals of Roca and Sarrate (2010)
 };
 
