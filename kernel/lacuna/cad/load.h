@@ -25,10 +25,10 @@ using io::LoadOptions;
 /// that Gmsh shows for the file. Loose faces are sewn and oriented consistently. healing::stitch() joins
 /// faces that still do not share edges. Model::notes lists the faces that were left out or stay unconnected.
 ///
-/// CAD files are read by a separate process (lacuna-cad), which is started at the first CAD file. It can
-/// crash, hang or be cancelled without harm to this process. It holds the exact geometry for the lifetime of
-/// the model. A GEO script can neither run commands nor write; it can include and merge only files of its own
-/// folder. Other formats do not need the process.
+/// CAD files are read by a separate process (lacuna-cad), which is started at the first CAD file. The CAD
+/// process can crash, hang or be cancelled without harm to the calling process. It holds the exact geometry
+/// for the lifetime of the model. A GEO script can neither run commands nor write; it can include and merge
+/// only files of its own folder. Other formats do not need the process.
 /// @param limits  limits of the CAD process.
 /// @throw InvalidInput  as for io::load_facets(); a file does not have the CAD format of its extension; or a
 ///        script does more than make geometry ("cad.script"). Names the file.

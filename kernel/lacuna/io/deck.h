@@ -80,7 +80,8 @@ struct DeckSet {
     Kind kind = Kind::elements;
     int tag = 0; ///< number of the group, if the format has one
     std::string name;
-    /// Members of a set of nodes or elements, ascending, each once; may include entities in `texts`.
+    /// Members of a set of nodes or elements, ascending, each once. They may include entities that only
+    /// `texts` contains.
     std::vector<DeckTag> members{};
     std::vector<DeckSide> sides{}; ///< members of a surface, increasing, each once
     bool listed = false;           ///< an Abaqus deck lists it on a card of its own although it equals a

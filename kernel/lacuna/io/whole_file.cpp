@@ -25,7 +25,7 @@ namespace lacuna::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// The path itself or, if it is a link, its target, so that the link is kept.
+/// The path or, if the path is a link, its target. Writing then replaces the target and keeps the link.
 fs::path resolved(const std::string& path)
 {
     std::error_code ignored;

@@ -20,8 +20,8 @@ namespace {
 
 /// Allowed distance as a share of a quad's side, if no length is given; see `FidelityOptions`.
 constexpr double kShareOfSide = 0.25;
-/// Allowed distance, as a share of a quad's side, within two sides of a tip, where at most four quads meet,
-/// and on faces between two volumes.
+/// Allowed distance, as a share of a quad's side, on faces between two volumes, and within two sides of a
+/// tip, such as the apex of a cone. At most four quads meet at a tip.
 constexpr double kShareAtTip = 1;
 
 /// Lower bound of the allowed distance: this share of the model's diagonal, or this share of the face's

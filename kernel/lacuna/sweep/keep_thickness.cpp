@@ -367,7 +367,7 @@ private:
     }
 
     /// Move a node within its layer to its required heights. Its distance from the layer's plane stays the
-    /// same. Its offset along the rim becomes that on the source.
+    /// same. Its offset along the rim becomes equal to its offset on the source.
     void move_inside(std::size_t node, const std::vector<Hold>& holders, std::size_t layer)
     {
         const std::size_t holds = std::min<std::size_t>(holders.size(), 2);

@@ -60,7 +60,8 @@ void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbour
     std::vector<double> turned(weights.begin(), weights.end());
     const Vec2 pull = inverse * mean;
     for (std::size_t k = 0; k < neighbours.size(); ++k) turned[k] *= 1 - pull.dot(seen(neighbours[k]) - mean);
-    // Negative weights could fold the mesh, so the sides' own weights are kept instead.
+    // If a new weight is not positive, the original weights are kept, because negative weights could fold the
+    // mesh.
     if (std::ranges::all_of(turned, [](double w) { return w > 0; })) {
         std::copy(turned.begin(), turned.end(), weights.begin());
     }

@@ -31,8 +31,8 @@ constexpr double kAllLost = 0.008, kLostByEnds = 0.002, kLostByLayers = 0.003;
 /// Maximum number of sides per full turn. An inscribed polygon of 100 sides lacks 0.07 % of the circle's
 /// area.
 constexpr int kMostPerTurn = 100;
-/// Creases across an end get nodes if this needs at most this many sides per turn. Otherwise they are only
-/// the sides of fine facets, and a smaller size is enough.
+/// Creases across an end get nodes if this needs at most this many sides per turn. If more are needed, the
+/// creases are taken for mere borders of fine facets, and a smaller size is used instead.
 constexpr int kMostForCreases = 40;
 /// Curvature of an end may reduce its size to the first value, as a share of the default. It may reduce the
 /// size further as long as the end has at most the second number of quads. Not measured.

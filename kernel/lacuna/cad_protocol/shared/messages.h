@@ -159,8 +159,8 @@ struct BeginSolidRequest {
     std::string result;  ///< name of that file without its folder; its extension gives the format
     std::vector<SolidSource> sources;
 };
-/// The requested entities that exist in the CAD process, and start, middle and end of each curve
-/// [model length].
+/// For each source, the requested entities that exist in the CAD process, and the start, middle and end of
+/// each curve [model length].
 struct BeginSolidReply {
     struct Found {
         std::vector<std::int32_t> faces, curves;
@@ -187,19 +187,19 @@ struct SplineSurfaceData {
 struct SolidEdge {
     enum Kind : std::uint8_t { exact, lines, spline };
     std::uint8_t kind = lines;
-    std::int32_t source = -1, curve = 0; ///< exact
-    std::vector<Index> points;           ///< lines: indices in MakeSolidRequest::points
-    SplineCurveData curve_data;          ///< spline
+    std::int32_t source = -1, curve = 0; ///< kind exact: index of the source, and tag of its curve
+    std::vector<Index> points;           ///< kind lines: indices in MakeSolidRequest::points
+    SplineCurveData curve_data;          ///< kind spline
 };
 struct SolidFace {
     enum Kind : std::uint8_t { exact, plane, patches, filling };
     std::uint8_t kind = plane;
     NamedEntity entity;                                   ///< for messages
-    std::int32_t source = -1, face = 0;                   ///< exact
+    std::int32_t source = -1, face = 0;                   ///< kind exact: index of the source, and its face
     std::vector<std::vector<std::array<Index, 2>>> loops; ///< edge number, and 1 if the edge is reversed
-    std::vector<SplineSurfaceData> surfaces;              ///< patches
-    std::vector<Index> leading;                           ///< filling: points to interpolate
-    double area = 0;                                      ///< filling: area of its facets
+    std::vector<SplineSurfaceData> surfaces;              ///< kind patches
+    std::vector<Index> leading;                           ///< kind filling: points to interpolate
+    double area = 0;                                      ///< kind filling: area of its facets
 };
 struct MakeSolidRequest {
     enum Format : std::uint8_t { step, brep };

@@ -43,10 +43,11 @@ enum class CardUse { read, keep, both };
 
 /// The cards of a deck and of its included files, which lie in its folder or below.
 ///
-/// A deck without BEGIN BULK is bulk data from its first line. The parts of superelements are merged.
-/// Supported are free, small and large fields, tabs, any case, and continuations. A continuation follows its
-/// card or, if it is named (+A1), may be anywhere. A card is passed on when all its continuations are read;
-/// if one never appears, at the end of the deck. Replicated cards are passed on as if they were written out.
+/// A deck without BEGIN BULK is bulk data from its first line. The parts of superelements are merged. Free,
+/// small and large fields, tabs, upper and lower case, and continuations are supported. A continuation
+/// follows its card or, if it is named (+A1), may be anywhere. A card is passed on when all its continuations
+/// are read. If a continuation never appears, the card is passed on at the end of the deck. Replicated cards
+/// are passed on as if they were written out.
 class BulkData {
 public:
     explicit BulkData(Cursor& cursor);

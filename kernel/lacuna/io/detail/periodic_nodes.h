@@ -22,8 +22,8 @@ struct PeriodicTerm {
     double factor = 0;
     std::int64_t tag = 0; ///< number of the node
 };
-/// Linear equations between displacements: the terms of each sum up to zero. The first term of an equation
-/// depends on the others, and is the first term of no other equation.
+/// Linear equations between displacements: the terms of each equation sum up to zero. The first term of an
+/// equation depends on the others, and is the first term of no other equation.
 struct PeriodicEquations {
     /// For each translation, its vector. A reference node represents it in equations: the displacement of
     /// this node is the difference between the displacements of the two sides. Rotations have no reference.

@@ -18,8 +18,8 @@ namespace lacuna::sweep {
 /// Examples are a pin that stands out of a plate, or a band around the middle of a pin. On a shared wall,
 /// both members must have the same rows of quads. Therefore each member gets the levels that the other member
 /// has within the wall, and corresponding intervals between levels get equal numbers of layers in both
-/// members. A group of members that are connected by shared walls is not constrained if none of them has
-/// levels.
+/// members. A group of members that are connected by shared walls is not constrained if none of its members
+/// has levels, or if the number of layers of a member is prescribed.
 class AssemblyLevels {
 public:
     AssemblyLevels(std::span<const AssemblyMember> members, std::span<const SharedFace> shared);

@@ -41,7 +41,7 @@ Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std
 struct DeviationLimit {
     double length = 0; ///< the same for all quads [model length]; 0: a share of the side
     double share = 0;  ///< allowed distance as a share of the side of a quad
-    double at_tip = 0; ///< `share` within two sides of a tip, where at most four quads meet
+    double at_tip = 0; ///< `share` within two sides of a tip of the face, such as the apex of a cone
     double least = 0;  ///< lower bound of the allowed distance, for short sides [model length]
     /// Whether inverted quads are reported as folds. False for void faces: if such a face is sharply twisted,
     /// the facet nearest to a quad may have any orientation.

@@ -32,8 +32,9 @@ std::vector<double> spread_between(const std::vector<double>& ends, std::size_t 
 /// - opposite edges of a four-sided wall.
 ///
 /// A class gets the requested number of sides or, without a request, the largest number that the size
-/// requires for one of its edges. If an end with only shared edges has an odd number of sides, the class
-/// with the most sides gets one more.
+/// requires for one of its edges. If all edges of an end have planned or given nodes and the number of its
+/// sides is odd, one class without a requested number gets one more side, preferably the one with the most
+/// sides.
 class EdgeCounts {
 public:
     using Line = std::vector<topology::EdgeUse>;
@@ -69,7 +70,8 @@ public:
 
     /// For each member: its side lines that consist of one edge.
     [[nodiscard]] const std::map<std::size_t, Line>& side_lines() const { return sides_; }
-    /// For each member: its side lines of several edges, of which some are beside other volumes.
+    /// For each member: its side lines that consist of several edges, at least one of them beside another
+    /// volume (`SameEdges::is_beside()`).
     [[nodiscard]] const std::map<std::size_t, std::vector<Line>>& stacks() const { return stacks_; }
     /// Number of layers of a member with side lines that consist of several edges: at least the largest
     /// number of edges of one line.

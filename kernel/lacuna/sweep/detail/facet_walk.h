@@ -23,9 +23,9 @@ public:
         Index facet = -1;
         Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, 0 to 1 to rounding, sum 1
         double height = 0;               ///< over the facet, along its normal [model length]
-        /// Whether no other facet can be closer: the foot point is so far from the facet's sides that the
-        /// adjacent facets, at their angles, cannot reach the point. Facets farther away are assumed to be
-        /// folded no more sharply. If false, the distance is still an upper bound.
+        /// Whether no other facet can be closer to the point. This is so if the foot point is far enough from
+        /// the facet's sides, in view of the angles between the facet and the adjacent facets. Facets farther
+        /// away are assumed to be folded no more sharply. If false, the distance is still an upper bound.
         bool nearest = false;
     };
     /// The facet below a point.

@@ -26,16 +26,18 @@ struct Plan {
 
 /// The ways to mesh a volume, best first.
 ///
-/// If the source keeps given quads, all plans sweep from it in the same layout. Otherwise the first plan
-/// sweeps from the given source to the target. It sweeps from the target instead
+/// If the source keeps given quads, the only plan sweeps from it. With boundary layers and quads from a
+/// neighbour, a second plan sweeps from the target. If the source keeps no quads, the first plan sweeps from
+/// the given source to the target. It sweeps from the target instead
 /// - if only the target has given quads;
 /// - if neither end has given quads, only the target has several faces (whose inner edges become mesh edges),
 ///   and the option `rows` is not used.
 ///
 /// The next plans are a common rotation of all loops, if the walls of some loop do not determine its
 /// rotation; the sweep from the other end; and quads laid out between the outlines of both ends. At order 2
-/// the whole list is repeated with more sides, because a quad with two sides on a round rim has an angle of
-/// nearly 180° between these sides. Plans with wedges come last, if the fallback allows them.
+/// the whole list is repeated with twice the sides, unless `curvature` or `volume_share` is 0, because a quad
+/// with two sides on a round rim has an angle of nearly 180° between these sides. Plans with wedges come
+/// last, if the fallback allows them.
 /// @param options  checked options, with `curvature` as planned for the volume.
 /// @throw Cancelled
 std::vector<Plan> plans(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,

@@ -29,11 +29,14 @@ inline constexpr double kNegligible = 1e-4;
 /// Length of the shortest side of a quad [model length]; 0 for no quads.
 double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
-/// One end of the sweep with the data to map it onto other rims.
-/// If the rim's points span the interior of the end, and the map fitted to them is exact and right-handed,
-/// the points alone determine the map. An example is a skin between two circles. For other rims, such as
-/// planar and nearly planar ones, the fit also includes the pseudo-normals. Without them, small waves of the
-/// rim would tilt the map far off the rim's plane.
+/// One end of the sweep with the data to map it onto other rims. The map is fitted to the rim's points alone
+/// under three conditions:
+/// - The points are not nearly planar, and no node of the end is much farther out than the rim.
+/// - The fitted map is exact.
+/// - The fitted map is right-handed.
+///
+/// An example is a skin between two circles. For other rims, the fit also includes the pseudo-normals.
+/// Without them, small waves of the rim would tilt the map far off the rim's plane.
 class RimFitter {
 public:
     /// @param rim    the end's rim, in the order of the columns; must outlive the fitter.

@@ -24,7 +24,7 @@ struct SweptParts {
     int layers = 1;
     /// For each edge inside the source, the target edge that it is swept to.
     std::map<EdgeId, EdgeId> target_edges{};
-    /// Whether the nodes of the end are given and must not move.
+    /// Whether the nodes of the source, or of the target, are given and must not move.
     bool source_stays = false, target_stays = false;
 
     [[nodiscard]] std::size_t size_of(std::size_t link) const { return source.links[link].source_at.size(); }

@@ -31,10 +31,11 @@ struct Elevated {
 /// geometry, as on most void walls, are blended between rows that have it.
 ///
 /// Inside, the sides of a level bend like the skin. Every side belongs to one chord, which runs across the
-/// quads from side to opposite side. Its bend is interpolated between the chord's ends on the rim, in a frame
-/// that rotates with the sides; on a grid, this is the transfinite map. The remaining bend of the two ends is
-/// blended from layer to layer. Sides between layers follow their column of nodes by cubics, and the
-/// remaining bend of the walls is spread harmonically. Midpoints of faces and cells are transfinite.
+/// quads from side to opposite side. The bend of a side is interpolated between the bends at both ends of its
+/// chord, which lie on the rim. This is done in a frame that rotates with the sides; on a grid, the result is
+/// the transfinite map. The remaining bend of the two ends is blended from layer to layer. Sides between
+/// layers follow their column of nodes by cubics, and the remaining bend of the walls is spread harmonically.
+/// Midpoints of faces and cells are transfinite.
 ///
 /// @param faces   face of each patch of the mesh.
 /// @param layers  generator of the nodes that the mesh does not hold; null: the mesh holds its nodes. Middle
