@@ -180,7 +180,7 @@
 ---@field gap? integer least number of quads across narrow parts of the source; default: none, 3 where there is no size
 ---@field max_deviation? number largest distance of the mesh's boundary from the volume's [model length]; default: a quarter of a quad's edge
 ---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" how faces are meshed; default "auto"; the report names the method for each face
----@field fallback? "wedges"|"leave_out"|"mixed" what to do with a volume that cannot be meshed with hexahedra only; default: an error
+---@field fallback? "none"|"wedges"|"leave_out"|"mixed" what to do with a volume that cannot be meshed with hexahedra only; default: an error
 ---@field wedges? boolean triangles of an end's given mesh are kept, and wedges swept from them; default false: an end with both triangles and quads is an error
 ---@field rows? integer rows of quads along every loop of the source that are not moved afterwards; default: chosen by the paving method
 ---@field row_height? number|fun(x: number, y: number, z: number): number height of these rows, of which there is at least one; default: the size

@@ -252,6 +252,7 @@ const Word<Quads> kQuads[] = {
 };
 
 const Word<sweep::Fallback> kFallbacks[] = {
+    {"none", sweep::Fallback::none},
     {"wedges", sweep::Fallback::wedges},
     {"leave_out", sweep::Fallback::leave_out},
     {"mixed", sweep::Fallback::mixed},

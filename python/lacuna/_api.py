@@ -577,8 +577,8 @@ class Volume(Shown):
             default: a quarter of a quad's edge
         quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; how faces are meshed; default "auto"; the report
             names the method for each face
-        fallback: "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed with
-            hexahedra only; default: an error
+        fallback: "none" | "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed
+            with hexahedra only; default: an error
         wedges: bool; triangles of an end's given mesh are kept, and wedges swept from them; default False: an
             end with both triangles and quads is an error
         rows: int; rows of quads along every loop of the source that are not moved afterwards; default: chosen
@@ -639,8 +639,8 @@ class Volume(Shown):
             default: a quarter of a quad's edge
         quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; how faces are meshed; default "auto"; the report
             names the method for each face
-        fallback: "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed with
-            hexahedra only; default: an error
+        fallback: "none" | "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed
+            with hexahedra only; default: an error
         wedges: bool; triangles of an end's given mesh are kept, and wedges swept from them; default False: an
             end with both triangles and quads is an error
         rows: int; rows of quads along every loop of the source that are not moved afterwards; default: chosen
@@ -906,8 +906,8 @@ class Assembly(Object):
             default: a quarter of a quad's edge
         quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; how faces are meshed; default "auto"; the report
             names the method for each face
-        fallback: "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed with
-            hexahedra only; default: an error
+        fallback: "none" | "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed
+            with hexahedra only; default: an error
         wedges: bool; triangles of an end's given mesh are kept, and wedges swept from them; default False: an
             end with both triangles and quads is an error
         rows: int; rows of quads along every loop of the source that are not moved afterwards; default: chosen
@@ -971,8 +971,8 @@ class Assembly(Object):
             default: a quarter of a quad's edge
         quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; how faces are meshed; default "auto"; the report
             names the method for each face
-        fallback: "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed with
-            hexahedra only; default: an error
+        fallback: "none" | "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed
+            with hexahedra only; default: an error
         wedges: bool; triangles of an end's given mesh are kept, and wedges swept from them; default False: an
             end with both triangles and quads is an error
         rows: int; rows of quads along every loop of the source that are not moved afterwards; default: chosen

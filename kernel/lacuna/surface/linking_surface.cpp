@@ -167,55 +167,6 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
     return places;
 }
 
-/// Middles of the edges of a rim around which it turns like a corner, such as the rounds of a rounded
-/// rectangle [running length on the chain].
-std::vector<double> middles_of_rounds(const Model& model, const Chain& chain)
-{
-    std::vector<double> middles;
-    const std::size_t count = chain.uses().size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::vector<Index> before = use_points(model, chain.uses()[(i + count - 1) % count]);
-        const std::vector<Index> after = use_points(model, chain.uses()[(i + 1) % count]);
-        const Vec3 in = (model.at(before.back()) - model.at(before[before.size() - 2])).stableNormalized();
-        const Vec3 out = (model.at(after[1]) - model.at(after[0])).stableNormalized();
-        if (in.dot(out) < std::cos((180 - kCornerBelow) * kDegree))
-            middles.push_back((chain.start(i) + chain.start(i + 1)) / 2);
-    }
-    return middles;
-}
-
-/// Pair the corners of the source's rim with the middles of the rounds of the target's rim
-/// (`middles_of_rounds()`). Empty unless the target's rim has no corners and as many rounds as the source's
-/// rim has corners. Example: a box with a sharp floor and rounded edges.
-/// @param start  position on the target that approximately corresponds to the start of the source.
-std::vector<PairedPlaces> corners_at_rounds(const Model& model, const LinkingSurface& link, double start)
-{
-    const Chain &source = link.source, &target = link.target;
-    std::vector<double> corners;
-    for (std::size_t i = 0; i < source.uses().size(); ++i)
-        if (matching::is_corner(model, source.uses(), i)) corners.push_back(source.start(i));
-    for (std::size_t i = 0; i < target.uses().size(); ++i)
-        if (matching::is_corner(model, target.uses(), i)) return {};
-    const std::vector<double> rounds = middles_of_rounds(model, target);
-    const std::size_t count = corners.size();
-    if (count == 0 || rounds.size() != count) return {};
-    const auto pairs_from = [&](std::size_t first) {
-        std::vector<PairedPlaces> pairs;
-        for (std::size_t i = 0; i < count; ++i) pairs.push_back({corners[i], rounds[(first + i) % count]});
-        return pairs;
-    };
-    const auto off = [&](std::size_t first) {
-        double sum = 0;
-        for (const PairedPlaces& pair : pairs_from(first)) {
-            const double turns = (pair.target_at - start) / target.length() -
-                                 pair.source_at / source.length();
-            sum += std::abs(turns - std::round(turns));
-        }
-        return sum;
-    };
-    return pairs_from(std::ranges::min(std::views::iota(std::size_t{0}, count), {}, off));
-}
-
 /// On bent walls without side lines, let the target rim correspond to the source rim by a frame that is moved
 /// along the walls with minimal rotation (`LinkingMap::turn()`).
 void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext& context)

@@ -56,14 +56,6 @@ std::vector<double> layer_heights(const LayerSpec& spec);
 /// How source faces are meshed.
 enum class Quads { automatic, paved, mapped, gmsh, keep };
 
-/// Placement of the inner nodes of layers.
-enum class Interior {
-    automatic, ///< the best known method
-    affine,    ///< for comparison: the affine fit alone
-    residual,  ///< for comparison: the affine fit, with its residual at the rim spread over the inside
-    normals,   ///< for comparison: the advance along local normals of Roca and Sarrate (2010)
-};
-
 /// Nodes of periodic faces, and the positions that make them exact images of each other.
 struct SettledNodes {
     std::set<FaceId> faces; ///< the periodic faces; all nodes of these faces are then fixed
