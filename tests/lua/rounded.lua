@@ -8,8 +8,8 @@ local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local around, arc = 48, 12 -- facets of a circle and of a quarter of one
 local half, high = 40, 60  -- of the box
 
---- A lathe profile of rings { radius, height } as bands of facets.
-local function band(model, name, rings, place)
+--- A lathe profile of rings { radius, height } as bands of facets, and a disc in the last ring if `capped`.
+local function band(model, name, rings, place, capped)
   local points, cells = {}, {}
   for _, ring in ipairs(rings) do
     for i = 0, around - 1 do
@@ -22,6 +22,13 @@ local function band(model, name, rings, place)
       local a, b = j * around + i + 1, j * around + (i + 1) % around + 1
       cells[#cells + 1] = { a, b, b + around }
       cells[#cells + 1] = { a, b + around, a + around }
+    end
+  end
+  if capped then
+    points[#points + 1] = place(0, 0, rings[#rings][2])
+    for i = 0, around - 1 do
+      local last = (#rings - 1) * around + 1
+      cells[#cells + 1] = { last + i, last + (i + 1) % around, #points }
     end
   end
   model:add_face { name = name, points = points, cells = cells }
@@ -38,8 +45,8 @@ local function disc(model, name, radius, height, place)
 end
 
 --- A box and a cylinder in it with rounds of `round` at its top, and at its bottom if it hovers; what they
---- leave of the box, by the facets, is the second result.
-local function room(radius, height, round, lift, tilt)
+--- leave of the box, by the facets, is the second result. The skin of a `smooth` product is one face.
+local function room(radius, height, round, lift, tilt, smooth)
   local model = lacuna.model()
   local c, s = math.cos(math.rad(tilt)), math.sin(math.rad(tilt))
   local function place(x, y, z)
@@ -67,9 +74,13 @@ local function room(radius, height, round, lift, tilt)
   local top, low = turned(0, arc, 1), lift > 0 and round or 0
   local profile = {}
   for _, ring in ipairs(top) do profile[#profile + 1] = { ring[1], ring[2] + height - round } end
-  band(model, "round_top", profile, place)
-  band(model, "side", { { radius, low }, { radius, height - round } }, place)
-  disc(model, "top", radius - round, height, place)
+  if smooth then
+    band(model, "product", { { radius, 0 }, table.unpack(profile) }, place, true)
+  else
+    band(model, "round_top", profile, place)
+    band(model, "side", { { radius, low }, { radius, height - round } }, place)
+    disc(model, "top", radius - round, height, place)
+  end
   local taken = lathe(profile) + flat * radius ^ 2 * (height - round - low)
   if lift > 0 then
     local rings = turned(arc, 0, -1)
@@ -145,6 +156,17 @@ check.near(pieces:sweep { size = 5 }:quality().volume / space, 1, 0.01)
 local model, volume = room(20, 25, 6, 0, 0)
 local void = model:open_volume { source = { "floor", "top", "round_top" }, target = "lid", walls = "auto" }
 check.near(void:sweep { size = 5 }:quality().volume / volume, 1, 0.01)
+
+-- The skin of a product is one smooth face, as in an .stl file: its flat part belongs to the end, the upright
+-- part is a wall. Swept whole as an end, the least value was 0.1.
+for _, named in ipairs { true, false } do
+  local one, space_above = room(20, 25, 6, 0, 0, true)
+  local roles = { source = { "floor", "product" }, target = "lid", walls = "auto" }
+  local over = one:open_volume(named and roles or nil)
+  local found = over:sweep { size = 5 }:quality()
+  check.near(found.volume / space_above, 1, 0.01)
+  check.that(found.min_scaled_jacobian >= 0.3, tostring(found.min_scaled_jacobian))
+end
 
 -- A cup without its brim: the round at its floor is divided between end and wall; undivided, the least values
 -- were 0.54, 0.30 and 0.15. Both halves keep the name.

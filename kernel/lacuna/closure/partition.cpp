@@ -423,7 +423,8 @@ void set_ends_along(OpenVolume& volume, const Vec3& axis)
     for (const FaceId face : all_faces(volume.model)) {
         const double along = face_area_vector(volume.model, face).dot(axis);
         const bool is_end = std::abs(along) >
-                            std::cos(kCreaseAngle * kDegree) * face_area(volume.model, face);
+                                std::cos(kCreaseAngle * kDegree) * face_area(volume.model, face) ||
+                            is_smooth_cap(volume.model, face, axis);
         volume.role[face.index()] = !is_end ? Role::wall : along > 0 ? Role::target : Role::source;
     }
 }
@@ -499,7 +500,7 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
                 const RunContext& context)
 {
     const CanSweep may_step = [&](const OpenVolume& piece) {
-        return ends_suit_columns(piece) && can_sweep(piece);
+        return ends_suit_columns(piece) && can_sweep(piece) && !has_round_steps(piece, context);
     };
     const CanSweep suits = [&](const OpenVolume& piece) {
         return !has_stepped_end(piece, context) && may_step(piece);

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -172,6 +173,27 @@ private:
     Vec3 out_; ///< away from the opposite end
 };
 
+/// The connected parts of an end. A face that stands upright on its neighbour in the end is a part of its own,
+/// because its rounds lie around its own top. Example: a product on a floor whose skin is one smooth face.
+std::vector<std::vector<FaceId>> parts_of_end(const OpenVolume& volume, Role end,
+                                              const std::vector<double>& turns)
+{
+    constexpr double kUpright = 90 - kCreaseAngle;
+    std::vector<std::vector<FaceId>> parts;
+    for (const std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(end))) {
+        geometry::UnionFind joined(volume.model.faces.size());
+        for (const FaceId face : part)
+            for (const EdgeUse& use : uses_of(volume.model[face]))
+                for (const FaceUse& user : volume.model.uses_of_edge(use.edge))
+                    if (volume.role[user.face.index()] == end && turns[use.edge.index()] > -kUpright)
+                        joined.unite_least(face.index(), user.face.index());
+        std::map<std::size_t, std::vector<FaceId>> own;
+        for (const FaceId face : part) own[joined.find(face.index())].push_back(face);
+        for (auto& [first, faces] : own) parts.push_back(std::move(faces));
+    }
+    return parts;
+}
+
 /// Smooth edges between walls, where two or more of them start at the same vertex of an end's rim.
 std::vector<EdgeId> smooth_fans(const OpenVolume& volume, const RunContext& context)
 {
@@ -251,12 +273,28 @@ void join_rounds(OpenVolume& volume, const RunContext& context)
 
 } // namespace
 
+bool is_smooth_cap(const Model& model, FaceId face, const Vec3& axis)
+{
+    constexpr double kUpright = 0.17; // cosine of 80 degrees: walls taper by up to 10
+    const Vec3 net = face_area_vector(model, face);
+    if (std::abs(net.dot(axis)) < std::cos(kCreaseAngle * kDegree) * net.norm() ||
+        border_loops(model, face).size() != 1 || !model[face].given_quads.empty())
+        return false;
+    bool flat = false, upright = false;
+    for (const Triangle& t : model[face].triangles) {
+        const double cosine = std::abs(slope_of(model, t, axis, axis).cosine);
+        flat = flat || cosine > kHalfway;
+        upright = upright || cosine < kUpright;
+    }
+    return flat && upright;
+}
+
 void split_round_rims(OpenVolume& volume, RoundsOf of, const RunContext& context)
 {
-    const auto parts = [&](Role end) { return connected_parts(volume.model, volume.faces(end)); };
     // Here all edges count as smooth: to compute their turns would cost more than to find that there are no
     // rounds.
     const std::vector<double> smooth(volume.model.edges.size(), 0);
+    const auto parts = [&](Role end) { return parts_of_end(volume, end, smooth); };
     const auto has_rounds = [&](const std::vector<FaceId>& part) {
         return RoundRims(volume, part, smooth, of, context).has_rounds();
     };
@@ -265,7 +303,7 @@ void split_round_rims(OpenVolume& volume, RoundsOf of, const RunContext& context
         face_away(volume, context);
         std::vector<double> turns = concave_turns(volume, context);
         for (const Role end : {Role::source, Role::target})
-            for (const std::vector<FaceId>& part : parts(end))
+            for (const std::vector<FaceId>& part : parts_of_end(volume, end, turns))
                 if (RoundRims(volume, part, turns, of, context).run()) turns = concave_turns(volume, context);
     }
     join_rounds(volume, context);

@@ -601,7 +601,24 @@ std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<
 
 } // namespace
 
-bool has_steps(const OpenVolume& volume, const RunContext& context) { return is_stepped(volume, context); }
+bool has_round_steps(const OpenVolume& volume, const RunContext& context)
+{
+    const auto has_cap = [&](Role end) {
+        const std::vector<FaceId> faces = volume.faces(end);
+        const Vec3 out = area_vector_of(volume.model, faces).stableNormalized();
+        return std::ranges::any_of(faces,
+                                   [&](FaceId face) { return is_smooth_cap(volume.model, face, out); });
+    };
+    if (!has_cap(Role::source) && !has_cap(Role::target)) return false;
+    OpenVolume divided = volume;
+    split_round_rims(divided, RoundsOf::ends_and_walls, context);
+    return is_stepped(divided, context);
+}
+
+bool has_steps(const OpenVolume& volume, const RunContext& context)
+{
+    return is_stepped(volume, context) || has_round_steps(volume, context);
+}
 
 std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& context)
 {

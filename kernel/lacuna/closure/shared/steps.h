@@ -9,8 +9,11 @@
 namespace lacuna::closure {
 
 /// Whether an end of a volume is at several heights: its faces form several connected parts, or the skin
-/// turns towards the void by more than 45° at one of its rims.
+/// turns towards the void by more than 45° at one of its rims; also `has_round_steps()`.
 bool has_steps(const topology::OpenVolume& volume, const RunContext& context = {});
+
+/// Whether an end has a smooth cap, and steps once its rounds are divided; see `is_smooth_cap()`.
+bool has_round_steps(const topology::OpenVolume& volume, const RunContext& context = {});
 
 /// A piece of a cut volume.
 struct StepPiece {
