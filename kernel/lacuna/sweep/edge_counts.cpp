@@ -526,8 +526,10 @@ void EdgeCounts::find_dense()
         if (member.fixed != nullptr) continue;
         SourceSize sizes;
         sizes.asked = [this, m](const Vec3& p) { return size(m, p); };
-        if (!member.options.size) sizes.by_default.emplace();
-        reduce_by_shape(*member.volume, member.options, sizes);
+        SweepOptions options = member.options;
+        // More quads across are left to the member's own edges: all neighbours would be fine there too.
+        options.gap = options.gap > 0 || !options.size ? 1 : 0;
+        reduce_by_shape(*member.volume, options, sizes);
         if (!sizes.shape.width) continue;
         for (const FaceId face : member.volume->faces(Role::source))
             for (const Loop& loop : border_loops(edges_.model(m), face))

@@ -22,7 +22,8 @@ struct AssemblyPlan {
 
 /// Numbers of sides for all edges of an assembly (`EdgeCounts`), and the nodes of shared edges.
 ///
-/// Nodes are evenly spaced, with two exceptions:
+/// Nodes are evenly spaced, with three exceptions:
+/// - Beside narrow places of a source, nodes follow the size there, on all edges of the class.
 /// - On side lines, nodes follow the layers.
 /// - Where rows of boundary layers end on an edge, the edge has nodes at the heights of the rows.
 ///
