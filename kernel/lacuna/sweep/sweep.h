@@ -34,8 +34,8 @@ enum class Spacing { geometric, bell, both_ends };
 
 struct LayerSpec {
     /// Number of layers, >= 1. With 0, the number follows from `heights`, from the rows of given meshes on
-    /// walls, or from the length of the sweep and the size. If the size varies along the sweep, so do the
-    /// heights.
+    /// walls, or from the length of the sweep and the size. If the size varies along the sweep, the layer
+    /// heights vary with it.
     int count = 0;
     /// Ratio of layer heights, > 0 [-]: last / first (geometric), middle / end (bell), end / middle
     /// (both_ends).

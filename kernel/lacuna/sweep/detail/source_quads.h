@@ -21,8 +21,8 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
 /// As `mesher_of()`, for regions that may have an odd number of sides.
 quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
 
-/// The requested or default size, reduced by the shape of the volume. It is reduced everywhere if the volume
-/// plan requires that.
+/// The requested or default size, reduced by the shape of the volume. If `VolumePlan::part` is less than 1,
+/// the size is reduced everywhere.
 /// @throw InvalidInput  a size is not a positive length, or there are too many cells to number.
 /// @throw Cancelled
 SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
