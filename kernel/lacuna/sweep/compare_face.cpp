@@ -366,7 +366,7 @@ private:
     [[nodiscard]] std::size_t walk_across(const mesh::Incidence& round, const Vec3& point,
                                           std::size_t quad) const
     {
-        constexpr int kMostSteps = 64; // longer walks end early, to bound the time. Not measured
+        constexpr int kMostSteps = 64; // limit on a walk, to bound the time. Not measured
         for (int step = 0; step < kMostSteps; ++step) {
             const Quad& q = quads_[quad];
             const std::array<Vec3, 4> c = corners(quad);
