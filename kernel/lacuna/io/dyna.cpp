@@ -489,7 +489,7 @@ private:
     std::set<std::string> unread_; ///< keywords of elements that are kept as text
     bool begun_ = false, long_ = false, ten_ = false;
     std::size_t width_ = kNumber;
-    std::vector<Index> head_line_, nodes_; ///< of the element that is being read: its number and part, and
+    std::vector<Index> head_line_, nodes_; ///< the element that is being read: its number and part, and
                                            ///< its nodes
     std::vector<SetCard> sets_;
     std::unordered_map<Quad, std::vector<std::pair<Quad, DeckSide>>, CornerHash<4>> sides_;
@@ -731,7 +731,7 @@ private:
     int highest_section_ = 0, highest_set_ = 0, highest_contact_ = 0; ///< in the kept text
     std::map<std::string, std::set<int>> ids_;                        ///< numbers of the sets of each keyword
     std::vector<DeckTag> shells_;
-    std::vector<int> numbers_; ///< of the sets as written
+    std::vector<int> numbers_; ///< numbers of the sets as written
 };
 
 } // namespace

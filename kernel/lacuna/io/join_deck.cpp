@@ -282,7 +282,7 @@ private:
     const topology::Model& model_;
     double scale_;
     const Mesh& mesh_;
-    std::size_t of_file_;      ///< points of the deck that are not of meshes that joined before
+    std::size_t of_file_;      ///< number of the deck's points without those of meshes that joined before
     std::vector<Index> known_; ///< for each node of the mesh: its point, if a mesh that joined before has it
     std::vector<Index> skin_;  ///< nodes of the mesh's skin
     NodesAt at_;               ///< points of the deck at these nodes

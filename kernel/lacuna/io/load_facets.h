@@ -19,7 +19,7 @@ namespace lacuna::io {
 struct FacetFile {
     healing::FacetSoup soup;
     std::vector<int>
-        label_tag; ///< tag of each label in the file, that of a surface entity, property or group; 0: none
+        label_tag; ///< tag of each label in the file: of a surface entity, property or group; 0: none
     /// Data of a label in the file besides its name.
     struct Label {
         std::vector<std::string> groups;               ///< see `topology::Face::groups`

@@ -774,7 +774,7 @@ private:
     Index place_ = -1, region_ = -1;             ///< region that the volume replaces, and region of the cells
     Index extended_ = -1;                        ///< region of an earlier mesh that the cells extend
     DeckTag first_cell_ = 1;
-    SetNames names_;                         ///< of the deck's sets, if no mesh was added before
+    SetNames names_;                         ///< names of the deck's sets, if no mesh was added before
     std::size_t first_set_ = 0;              ///< number of sets before the mesh was added
     std::vector<std::uint32_t> cells_;       ///< cell of each quad of the skin
     std::vector<int> sides_;                 ///< for each of these quads, the number of the face in the cell

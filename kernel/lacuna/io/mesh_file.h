@@ -69,7 +69,7 @@ struct MeshFileOptions {
 /// Names in Abaqus consist of letters, digits, - and _ . Other characters are replaced by _ .
 ///
 /// In VTK the cell array "entity" holds the tag of the skin patch, and 0 for solids. For each group, a field
-/// array of the group's name lists its entities. A .pvtu "mesh.pvtu" refers to its pieces "mesh_0.vtu",
+/// array of the group's name lists its entities. A file "mesh.pvtu" refers to its pieces "mesh_0.vtu",
 /// "mesh_1.vtu" … in the same folder. Pieces have the arrays of a .vtu, and also `node_number` and
 /// `cell_number`: the positions in the undivided file, from 1. Nodes on the interface of two pieces are in
 /// both. A quad of the skin is in the piece of its cell. With ghosts, `vtkGhostType` is 1 for cells of other

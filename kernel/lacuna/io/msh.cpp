@@ -366,7 +366,7 @@ private:
     void open(const char* version)
     {
         text_ = std::string("$MeshFormat\n") + version + (numbers_.binary ? " 1 8\n" : " 0 8\n");
-        if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // readers see the byte order
+        if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // shows readers the byte order
         text_ += "$EndMeshFormat\n";
         if (!unit_.empty()) text_ += "$Comments\nlengths are in " + unit_ + "\n$EndComments\n";
         text_ += "$PhysicalNames\n" + std::to_string(names_.size()) + "\n";

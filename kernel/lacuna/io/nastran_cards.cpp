@@ -12,8 +12,8 @@ constexpr std::size_t kField = 8;       // characters of a small field; the firs
                                         // always small
 constexpr std::size_t kLargeField = 16; // characters
 constexpr std::size_t kFields = 8;      // data fields of a line; large ones take two lines
-/// Limit on the number of cards created by replication, plus one for each sixteen bytes of the file. Without
-/// a limit, a wrong count would fill the memory. Not measured.
+/// Number of cards that replication may create, in addition to one card for each sixteen bytes of the file.
+/// Without a limit, a wrong count would fill the memory. Not measured.
 constexpr std::size_t kReplicas = 10'000;
 
 bool begins_with(std::string_view line, std::string_view word)
@@ -285,8 +285,8 @@ bool BulkData::take_fields(const DeckPlace& place)
     if (first.empty() || first[0] == '+' || first[0] == '*') {
         const bool both_named = first.size() > 1 && marker_.size() > 1;
         const bool another = both_named && !same_word(first.substr(1), marker_.substr(1));
-        // A continuation that the previous card did not ask for. It belongs to another card if some line of
-        // the deck names it. If none does, its name is only a remark of the user.
+        // A continuation with a name, after a line that names none. If some line of the deck names it, it
+        // belongs to the card of that line. Otherwise its name is only a remark of the user.
         const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && is_awaited(first.substr(1));
         if (first.size() > 1 && (!open_ || another || unsaid)) return false;
         if (!open_) place.fail("the continuation {} belongs to no card", shown(first));

@@ -277,8 +277,8 @@ private:
         into_.warn(formatted("read as one deck with its superelements ({})", bulk_.superelements()));
     }
 
-    /// An element without a property has the property of its own number. Elements for which no card defines
-    /// that property form one region.
+    /// An element without a property has the property of its own number. If there are several such elements,
+    /// those for which no card defines this property form one region.
     void finish_properties()
     {
         Deck& deck = into_.deck();

@@ -144,7 +144,7 @@ CyclicSector cyclic_sector(const MeshView& view)
     const Matrix3d across = Matrix3d::Identity() - pair.onto.linear() + turn.axis() * turn.axis().transpose();
     const Vec3 shift = pair.onto.translation();
     const double along = shift.dot(turn.axis());
-    if (std::abs(along) > kFileAccuracy * shift.norm()) return {}; // a screw
+    if (std::abs(along) > kFileAccuracy * shift.norm()) return {}; // a screw motion
     sector.point = across.inverse() * (shift - along * turn.axis());
     return sector;
 }

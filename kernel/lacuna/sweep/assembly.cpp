@@ -422,8 +422,9 @@ private:
         options.beside.own_mesh = came_with_mesh(member);
         OpenVolume volume = *member.volume, sealed = *member.volume;
         give_edge_nodes(volume, plan_.nodes[m]);
-        // Rows along walls continue across a shared face, so each member paves that face itself. Otherwise
-        // the member keeps the quads of the neighbour that was meshed first.
+        // A member with an explicit option `quads` also keeps the quads of a neighbour that was meshed first.
+        // It does not if it has rows along walls or boundary layers: these continue across the shared face,
+        // so the member paves that face itself.
         if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
             for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
         for (const auto& [own, other, from, onto] : handed) {

@@ -85,9 +85,10 @@ struct FaceContact {
     double area = 0;             ///< area of the first face within the gap of the other [model length²]
 };
 
-/// Find the pairs of faces of two members in contact. Pieces of one volume are not in contact, nor are
-/// touching faces of members that are glued together. If most of a face lies on another member, contacts of
-/// this face across a gap are omitted.
+/// Find the pairs of faces of two members in contact. These contacts are omitted:
+/// - contacts between pieces of one volume;
+/// - contacts of touching faces of members with the same `AssemblyMember::glue`;
+/// - contacts across a gap, of a face that mostly lies on another member.
 /// @param gap  returns the largest distance at which faces of two members are in contact [model length].
 /// @throw InvalidInput "assembly.overlap"  members that are not glued overlap, as for `shared_faces()`.
 /// @note  cost as for `shared_faces()`.
@@ -155,9 +156,10 @@ struct SweptAssembly {
 /// says; the assembly is then computed again.
 ///
 /// Faces of `SweepOptions::periodic` get the same mesh as their images. An edge and its image count as one
-/// edge in the interval assignment. A face whose image is on another member gets the image's quads. If both
-/// are on one member, their nodes are moved onto each other before the proof, and then fixed. If the motion
-/// is a translation, nodes and images are bit-identical unless both are given.
+/// edge in the interval assignment. A face whose image is on another member gets the image's quads. If a face
+/// and its image are on the same member, the nodes of both faces are moved before the proof, so that they are
+/// exact images, and are then fixed. If the motion is a translation, nodes and images are bit-identical
+/// unless both are given.
 /// @throw NotSweepable  as `sweep()`, with the name of the region; "sweep.periodic_unlike"  the quads of two
 ///         periodic faces of a member have different connectivity; "assembly.layers"  different numbers of
 ///         layers are requested for volumes side by side; "assembly.layers_differ"  boundary layers of

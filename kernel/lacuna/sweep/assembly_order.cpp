@@ -118,8 +118,8 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
                    is_wall(members[other], is_a ? face->face_b : face->face_a) == other_wall;
         });
     };
-    // For each member, the neighbours that must come first: a wall that both share lies in the middle of the
-    // neighbour's walls, away from the rims of its ends.
+    // For each member, the neighbours that should be placed before it: the wall shared with such a neighbour
+    // lies in the middle of the neighbour's walls, away from the rims of the neighbour's ends.
     std::vector<std::set<std::size_t>> below(count);
     for (const SharedFace& face : shared) {
         const bool a = in_middle(members[face.a], face.face_a), b = in_middle(members[face.b], face.face_b);

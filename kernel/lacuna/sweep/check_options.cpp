@@ -10,8 +10,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Larger than the core count of any supported machine, and far below the thread limit of an operating
-/// system.
+/// Maximum number of threads: larger than the core count of any supported machine, and far below the thread
+/// limit of an operating system.
 constexpr int kMostThreads = 1024;
 
 [[noreturn]] void refuse(const std::string& option, const Argument& must, const Argument& value)

@@ -366,7 +366,7 @@ private:
     [[nodiscard]] std::size_t walk_across(const mesh::Incidence& round, const Vec3& point,
                                           std::size_t quad) const
     {
-        constexpr int kMostSteps = 64; // longer walks end early, to bound the time. Not measured
+        constexpr int kMostSteps = 64; // limit on a walk, to bound the time. Not measured
         for (int step = 0; step < kMostSteps; ++step) {
             const Quad& q = quads_[quad];
             const std::array<Vec3, 4> c = corners(quad);
@@ -520,8 +520,8 @@ private:
             result_.side = result_.source_side = (b - a).norm();
             if (mesh_ == nullptr) continue;
             // Find the side of the mesh's quad that deviates. At order 2, the compared quad is a quarter of
-            // the mesh's quad. If its side is half of a side of the mesh's quad, take that side, otherwise
-            // the parallel one.
+            // the mesh's quad. If the deviating side of the compared quad is half of a side of the mesh's
+            // quad, take that side; otherwise take the parallel side of the mesh's quad.
             const Index row = mesh_->nodes_per_layer;
             const std::size_t own = mesh_->order() == 1 ? k : (worst_ + 3 * (k % 2)) % 4;
             const Quad whole = mesh::skin_quad(*mesh_, item_[worst_]).nodes;

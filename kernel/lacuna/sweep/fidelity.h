@@ -37,7 +37,7 @@ struct FaceFidelity {
     /// The largest distance from the quads to the face or from the face to the quads [model length]. If the
     /// face has no quads: the width of the face, that is, twice its area divided by the length of its rim.
     double max_distance = 0;
-    double mean_distance = 0;  ///< mean over the area, the larger of both directions [model length]
+    double mean_distance = 0;  ///< mean over the area; the larger of both directions [model length]
     Vec3 place = Vec3::Zero(); ///< place of the maximum distance
 
     Misfit misfit = Misfit::none;

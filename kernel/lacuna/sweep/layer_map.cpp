@@ -49,7 +49,7 @@ struct Factors {
 LACUNA_INLINE const double* residual_of(const HarmonicSpread::Fields* residuals, std::size_t i,
                                         std::size_t end)
 {
-    constexpr std::size_t kAhead = 8, kLine = 8; // nodes; numbers of a cache line
+    constexpr std::size_t kAhead = 8, kLine = 8; // nodes to look ahead; numbers in a cache line
     if (residuals == nullptr) return nullptr;
     if (const double* row = i + kAhead < end ? residuals->of(i + kAhead) : nullptr) {
         __builtin_prefetch(row);

@@ -421,8 +421,8 @@ void tie_points(std::vector<Vec3>& places, const std::vector<char>& fixed, std::
             if (done[way.to] != 0) continue;
             done[way.to] = 1;
             const Vec3 moved = way.onto * places[way.from];
-            // The nodes of edges may have been rotated before, in another order. Keep their positions, so
-            // that neighbours have bit-identical nodes.
+            // Keep a rotated position that differs only by rounding. The nodes of edges may have been rotated
+            // in another order before, and neighbours must have bit-identical nodes.
             if (is_translation(way.onto) || (moved - places[way.to]).norm() > kRounding * grid)
                 places[way.to] = moved;
             add(way.to);

@@ -26,8 +26,8 @@ bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
     });
 }
 
-/// Whether the quads can be laid out in the mean outline of both ends. This requires that each end has one
-/// face.
+/// Whether the quads can be laid out in the mean outline of both ends. This requires that the source is
+/// paved, that there are no rows or boundary layers, and that each end has one face.
 bool can_lie_between(const OpenVolume& volume, const SweepOptions& options)
 {
     return (options.quads == Quads::automatic || options.quads == Quads::paved) && options.rows == 0 &&

@@ -26,13 +26,13 @@ namespace {
 /// may be incomplete: coarse chords of a rim cut off parts of a flat face, and facets of different fineness
 /// leave gaps next to the rim of a curved face.
 constexpr double kMostly = 0.5;
-/// If the common part is a smaller share of both faces, the faces only touch along their rims.
+/// If the common part is at most this share of each face, the faces only touch along their rims.
 constexpr double kNothing = 1e-3;
 /// The sag of chords is only an estimate. Points of one rim may be off the chords of the other rim by this
 /// many times the sag.
 constexpr double kRimSag = 1.5;
-/// If two faces touch along a rim and curve away from each other, less than this share of their area is
-/// closer than the error of the facets.
+/// If two faces touch along a rim and curve away from each other, less than this share of either face is
+/// closer to the other face than the error of the facets.
 constexpr double kAlongRim = 0.5;
 /// A point counts as lying on a volume's skin if it is within this share of the volume's diagonal. The facets
 /// of curved faces may differ by that much from those of the neighbour.

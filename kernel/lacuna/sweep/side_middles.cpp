@@ -63,7 +63,7 @@ public:
 
 private:
     /// Largest distance of a side's nodes from the edge on which the side lies, as a share of the side's
-    /// length. Nodes on a curved edge may be off its chords by their sag.
+    /// length. Nodes on a curved edge may be off the chords of the edge by the sag of these chords.
     static constexpr double kNear = 0.1;
 
     struct Curve {
@@ -168,8 +168,8 @@ std::vector<std::optional<Vec3>> middles_on_faces(const Model& model, std::span<
     std::vector<std::optional<Vec3>> middles(sides.size());
     std::map<FaceId, std::vector<std::size_t>> of_face;
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        // Two faces without a common edge may have a side between them. It is projected onto the face with an
-        // exact surface.
+        // A side may lie between two faces that have no common edge. Such a side is projected onto the face
+        // that has an exact surface.
         const bool other = model[sides[i].face].surface == nullptr &&
                            model[sides[i].other].surface != nullptr;
         of_face[other ? sides[i].other : sides[i].face].push_back(i);

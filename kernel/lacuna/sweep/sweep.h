@@ -34,8 +34,8 @@ enum class Spacing { geometric, bell, both_ends };
 
 struct LayerSpec {
     /// Number of layers, >= 1. With 0, the number follows from `heights`, from the rows of given meshes on
-    /// walls, or from the length of the sweep and the size. If the size varies along the sweep, so do the
-    /// heights.
+    /// walls, or from the length of the sweep and the size. If the size varies along the sweep, the layer
+    /// heights vary with it.
     int count = 0;
     /// Ratio of layer heights, > 0 [-]: last / first (geometric), middle / end (bell), end / middle
     /// (both_ends).
@@ -114,7 +114,7 @@ struct SweepOptions {
     surface::SizeField row_height; ///< height of these rows; null: the size
     /// Tables of thin rows of cells along walls and ends. A face may be in one table only.
     std::vector<surface::BoundaryLayer> boundary_layers;
-    std::vector<surface::Interval> intervals; ///< numbers of sides
+    std::vector<surface::Interval> intervals; ///< requested numbers of sides
     /// Pairs of faces that get the same mesh. Applied by `sweep_assembly()`, also for a single volume.
     std::vector<surface::PeriodicPair> periodic;
     quads::PlanarQuadMesher quad_mesher; ///< the mesher of `Quads::gmsh`
@@ -150,10 +150,11 @@ struct Swept {
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
     std::vector<std::string> report; ///< a line for each stage: seeds, quads, walls, target, layers, shape
-    /// Lines of the report on default sizes, default numbers of layers, and the poor cells that result from
-    /// these defaults. `sweep()` also logs the lines; for volumes of an assembly, `sweep_assembly()` does.
+    /// Lines of the report on default sizes, on given sizes that the shape reduces, and on default numbers of
+    /// layers. `sweep()` also logs these lines; for volumes of an assembly, `sweep_assembly()` does.
     std::vector<std::string> defaults;
-    std::vector<std::string> notes;    ///< lines on a changed volume; logged like `defaults`, after "note: "
+    /// Lines on poor cells and on a changed volume. They are logged like `defaults`, after "note: ".
+    std::vector<std::string> notes;
     std::vector<std::string> not_kept; ///< the lines of the report on given meshes that are not kept
 
     [[nodiscard]] mesh::SkinNodes skin() const { return {mesh, layers ? &*layers : nullptr}; }

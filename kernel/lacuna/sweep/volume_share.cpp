@@ -43,8 +43,8 @@ constexpr double kLonger = 1.35;
 /// Upper bound of the mean elongation of quads on an end, √(area / projected area). Ends that are steeper,
 /// such as most of a ball, are not paved in one plane.
 constexpr double kSteepest = 2;
-/// The size may require up to this many times the sides that the rim of an end has, so that a grid fits: for
-/// example 24 sides instead of 16.
+/// So that a grid fits, the rim of an end may have fewer sides than the size requires, for example 16 instead
+/// of 24. The wall model therefore uses the size times this factor.
 constexpr double kFewer = 1.5;
 /// Factor between the sizes that are tried.
 constexpr double kSmaller = 0.9;

@@ -41,7 +41,7 @@ public:
 
 /// A CAD process (lacuna-cad), started at the first request and kept.
 ///
-/// It may end at any time (a crash, a limit, a signal). The request in progress then fails with a
+/// The process may end at any time (a crash, a limit, a signal). The request in progress then fails with a
 /// BackendError that says how the process ended. Later requests to this object fail with WorkerGone;
 /// `current()` starts another process. A process that failed to load a file or to mesh still serves the
 /// models it holds, but it loads no others. Thread-safe: requests are serialised. A child made by fork()

@@ -124,8 +124,8 @@ public:
     void add_point(DeckTag tag, const Vec3& point, const Cursor& cursor);
 
     Index add_region(int tag, std::string_view name);
-    /// The region with this tag, created on first use. @param group  which numbering the tag belongs to, if a
-    /// file has several.
+    /// The region with this tag, created on first use. @param group  number of the numbering that the tag
+    /// belongs to, if a file has several numberings.
     Index region_of(int tag, std::string_view name = {}, int group = 0);
 
     /// As `io::block_of()`.

@@ -125,8 +125,9 @@ std::string abaqus_name(std::string_view name);
 /// Convert a name to one that is valid in a format, and append a number if that is in use.
 std::string free_name(std::string_view name, DeckFormat format,
                       const std::function<bool(const std::string&)>& is_taken);
-/// Whether sets of two kinds must not have the same name. CalculiX mistakes a load on a surface for one on
-/// the element set of that name, and applies none. A group of a universal file holds both nodes and elements.
+/// Whether sets of two kinds must not have the same name. Reasons: CalculiX takes a load on a surface for a
+/// load on the element set of the same name, and applies none. In a universal file, a group holds both nodes
+/// and elements.
 bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b);
 
 /// Whether an Abaqus type word (in capitals) is an element of this shape.

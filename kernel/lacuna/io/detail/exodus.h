@@ -11,8 +11,8 @@
 /// HDF5 and curl.
 namespace lacuna::io {
 
-/// Exodus property that gives, for each block, the id of the first block of its region. It is written if a
-/// region has several blocks, because it has cells of several shapes.
+/// Exodus property that gives, for each block, the id of the first block of its region. The property is
+/// written if some region has several blocks, one for each shape of its cells.
 inline constexpr const char* kRegionProperty = "REGION";
 
 /// Convert the number of a side from Abaqus to Exodus. Abaqus numbers the bottom and top faces first, Exodus

@@ -25,8 +25,9 @@ struct PeriodicTerm {
 /// Linear equations between displacements: the terms of each equation sum up to zero. The first term of an
 /// equation depends on the others, and is the first term of no other equation.
 struct PeriodicEquations {
-    /// For each translation, its vector. A reference node represents it in equations: the displacement of
-    /// this node is the difference between the displacements of the two sides. Rotations have no reference.
+    /// For each translation, its vector. A reference node represents the translation in equations: the
+    /// displacement of this node is the difference between the displacements of the two sides. Rotations have
+    /// no reference.
     std::vector<Vec3> references;
     std::vector<std::size_t>
         number; ///< number of the reference of each periodic pair; `kNoIndex`: it has none

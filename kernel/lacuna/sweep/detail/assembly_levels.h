@@ -50,7 +50,7 @@ private:
                                                    ///< walls, in [0, 1]
     std::vector<double> length_;                   ///< length of each member's walls along the sweep [model
                                                    ///< length]
-    std::vector<double> same_; ///< for each member: levels closer than this are one [share of its height]
+    std::vector<double> same_; ///< for each member: levels closer than this are merged [share of height]
     std::vector<std::vector<double>> levels_; ///< for each member, increasing from 0 to 1
 };
 

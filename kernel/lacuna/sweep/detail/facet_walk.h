@@ -29,7 +29,7 @@ public:
         bool nearest = false;
     };
     /// The facet below a point.
-    /// @return  empty if no facet is found, as beside a convex edge.
+    /// @return  empty if no facet is found, for example above a convex edge.
     [[nodiscard]] std::optional<Foot> over(const Vec3& point, Index start) const;
 
     /// Unit normal; zero if the facet has no area.

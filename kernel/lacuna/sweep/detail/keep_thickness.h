@@ -24,11 +24,13 @@ inline constexpr double kThicknessOff = 0.02;
 /// Move nodes so that boundary layers have the requested thickness, measured normal to the faces of the mesh
 /// at their base: rows along walls in every layer, and layers along ends.
 ///
-/// The nodes of a row are found by walking from the rim over opposite sides of quads. Row nodes on other
-/// walls slide along the layer's rim, together with the rest of the rim; inner row nodes move within their
-/// layer. These moves are spread harmonically over the layer, and nodes of the ends are projected back onto
-/// their faces. Layers along an end move along their columns. Both steps alternate until the thickness is
-/// reached.
+/// Two steps alternate until the thickness is reached:
+/// 1. Rows along walls. The nodes of a row are found by walking from the rim over opposite sides of quads.
+///    Row nodes on other walls slide along the layer's rim, together with the rest of the rim. Inner row
+///    nodes move within their layer. These moves are spread harmonically over the layer, and nodes of the
+///    ends are projected back onto their faces.
+/// 2. Layers along ends. Their nodes move along the columns.
+///
 /// @param nodes  (layers + 1) × source nodes, layer-major; moved.
 /// @throw NotSweepable "sweep.layers_thickness"  rows cannot have their thickness; names the wall, the
 ///         requested and the actual thickness, and the place.

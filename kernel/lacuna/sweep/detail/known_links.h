@@ -20,7 +20,8 @@ namespace lacuna::sweep {
 /// the mesh within its bound.
 class KnownLinks {
 public:
-    /// @param volume  must outlive this and must not move or change: linking surfaces refer to its model.
+    /// @param volume  must outlive this object, and must not move or change: linking surfaces refer to its
+    ///         model.
     explicit KnownLinks(const topology::OpenVolume& volume) : volume_(volume) {}
 
     /// The volume with source and target exchanged.

@@ -24,7 +24,7 @@ double pair_tolerance(const AssemblyMember& a, const AssemblyMember& b);
 double near_window(const AssemblyMember& a, const AssemblyMember& b);
 
 /// Maximum distance between corresponding vertices of the rims of two faces.
-/// @param at_least  vertices that are farther apart than a few times this distance do not correspond.
+/// @param at_least  distance of the rims. Vertices that are much farther apart do not correspond.
 double corners_apart(const topology::Model& a, FaceId face_a, const topology::Model& b, FaceId face_b,
                      double at_least);
 /// The tolerance with which the faces of two models at this distance are joined, rounded up to two digits.
@@ -32,10 +32,12 @@ double joining_tolerance(const topology::Model& model, double width);
 
 /// The near misses of pairs of members, ordered by members, then faces.
 ///
-/// Two faces are a near miss if they are closer than the window over more than a strip along their rims, and
-/// do not diverge: most of the area that is closer than four times the window is closer than the window. An
-/// edge and a face are judged in the same way, by the edge's length. Faces that are shared as a whole with
-/// some member are excluded, because a thin member between two others is not a gap.
+/// Two faces are a near miss under two conditions:
+/// - The faces are closer than the window over more than a strip along their rims.
+/// - The faces do not diverge: most of the area that is closer than four windows is closer than one window.
+///
+/// For an edge and a face, the same conditions apply to the length of the edge. Faces that are shared as a
+/// whole with some member are excluded, because a thin member between two others is not a gap.
 /// @param sag  sag of each member's faces.
 /// @throw InvalidInput "assembly.crack", "assembly.overlap"  as `shared_faces()`
 std::vector<NearMiss> near_misses(std::span<const AssemblyMember> members,

@@ -72,8 +72,8 @@ public:
 private:
     /// Find edges that are the same in several members.
     void find_same();
-    /// Unite each rim of a shared face that is one closed edge with the same rim in the other member. Both
-    /// are the same edge even if their chords differ widely.
+    /// For each rim of a shared face that consists of one closed edge: unite this edge with the corresponding
+    /// rim in the other member. Both are the same edge, even if their chords differ widely.
     void find_same_rims(const SharedFace& face);
     /// Join the edges of periodic faces with their images. The first edge of each set defines the position
     /// and the nodes of all edges of the set.

@@ -26,8 +26,8 @@ quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow)
 /// @param size  `asked` and `by_default` are read, the sizes by shape are set.
 void reduce_by_shape(const topology::OpenVolume& volume, const SweepOptions& options, SourceSize& size);
 
-/// The requested or default size, reduced by the shape of the volume. It is reduced everywhere if the volume
-/// plan requires that.
+/// The requested or default size, reduced by the shape of the volume. If `VolumePlan::part` is less than 1,
+/// the size is reduced everywhere.
 /// @throw InvalidInput  a size is not a positive length, or there are too many cells to number.
 /// @throw Cancelled
 SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,

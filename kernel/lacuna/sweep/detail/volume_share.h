@@ -13,9 +13,10 @@
 ///
 /// For walls, a model of the mesh's skin gives the volume enclosed by its quads. At order 2 its sides are
 /// parabolas through the mid-side nodes. For ends there is a closed form: a side of length h along a
-/// curvature k has the sag k h²/8, and an end loses the integral of (k₁ h₁² + k₂ h₂²)/12 over its area.
-/// Facets stand for the smooth surface that they approximate. Where the surface is concave, the same formula
-/// gives volume that is added.
+/// curvature k has the sag k h²/8, and an end loses the integral of (k₁ h₁² + k₂ h₂²)/12 over its area. Here
+/// k₁ and k₂ are the principal curvatures, and h₁ and h₂ the lengths of sides in their directions. Facets
+/// stand for the smooth surface that they approximate. Where the surface is concave, the same formula gives
+/// volume that is added.
 namespace lacuna::sweep {
 
 /// Whether size, layers and curvature all have default values. The numbers of sides then follow from the

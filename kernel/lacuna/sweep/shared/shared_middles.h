@@ -21,8 +21,8 @@ public:
     [[nodiscard]] bool add(const mesh::HexMesh& mesh, const std::function<bool(Index patch)>& wanted);
     [[nodiscard]] bool add(const mesh::TetPart& mesh); ///< add the whole skin of a mesh
 
-    /// The middle node of a side, by the positions of its ends, or of a quad, by those of two opposite
-    /// corners.
+    /// The middle node of a side, found by the positions of its ends; or the centre of a quad, found by the
+    /// positions of two opposite corners. Empty: unknown.
     [[nodiscard]] std::optional<Vec3> side(const Vec3& a, const Vec3& b) const
     {
         return find(sides_, key_of(a, b));

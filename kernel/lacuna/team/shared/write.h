@@ -23,7 +23,7 @@ struct WriteRequest {
     /// Cell fields. Default: the scaled Jacobian; in MSH 2.2 none, because some readers of this version
     /// (meshio 5) refuse files with $ElementData.
     std::optional<std::vector<quality::Metric>> quality;
-    std::optional<bool> renumber;  ///< of several decks that are joined
+    std::optional<bool> renumber;  ///< see `io::MergeOptions`, for several decks
     std::optional<int> partitions; ///< 0: one for each process
     int ghosts = 0;
     bool interfaces = false, orientation = false;
