@@ -173,8 +173,9 @@ private:
     Vec3 out_; ///< away from the opposite end
 };
 
-/// The connected parts of an end. A face that stands upright on its neighbour in the end is a part of its own,
-/// because its rounds lie around its own top. Example: a product on a floor whose skin is one smooth face.
+/// The connected parts of an end. A face that stands upright on its neighbour in the end is a part of its
+/// own, because its rounds lie around its own top. Example: a product on a floor whose skin is one smooth
+/// face.
 std::vector<std::vector<FaceId>> parts_of_end(const OpenVolume& volume, Role end,
                                               const std::vector<double>& turns)
 {
