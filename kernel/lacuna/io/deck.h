@@ -175,8 +175,8 @@ struct NodesAt {
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale = 1);
 
 /// Read the mesh of a file: .bdf .nas .dat (Nastran), .inp (Abaqus, CalculiX), .unv, .msh, .vtk, .vtu, .mesh,
-/// .exo, .e, .k, .key, .dyn, .med, .stl, .obj. The file extension, in any case, determines the format, and
-/// the content must agree.
+/// .exo, .e, .k, .key, .dyn, .med, .stl, .obj. The file extension, in upper or lower case, determines the
+/// format, and the content must agree.
 /// @param context  its log gets the deck's warnings, each after "note: ".
 /// @throw InvalidInput  as read_facets().
 Deck read_deck(const std::string& path, const RunContext& context = {});

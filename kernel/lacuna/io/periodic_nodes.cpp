@@ -139,8 +139,8 @@ CyclicSector cyclic_sector(const MeshView& view)
     const bool axis = std::ranges::any_of(pair.pairs, [](const auto& nodes) { return nodes[0] == nodes[1]; });
     if (is_translation(pair) || !whole || axis) return {};
     CyclicSector sector{static_cast<int>(std::lround(sectors)), {}, turn.axis()};
-    // The point of the axis closest to the origin solves (1 - R) p = t. The component along the axis is set
-    // to zero.
+    // The point p of the axis closest to the origin solves (1 - R) p = t, where R and t are the rotation and
+    // the translation of the motion. The component of p along the axis is set to zero.
     const Matrix3d across = Matrix3d::Identity() - pair.onto.linear() + turn.axis() * turn.axis().transpose();
     const Vec3 shift = pair.onto.translation();
     const double along = shift.dot(turn.axis());

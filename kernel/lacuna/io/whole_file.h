@@ -100,7 +100,8 @@ public:
     /// Write bytes after those appended so far.
     void append(std::string_view bytes);
     /// Path under which other processes can open the unfinished file. It is the temporary name, if there is
-    /// one. Otherwise it leads through the open files of this process, for the same user on the same machine.
+    /// one. Otherwise it is a path to an open file of this process, which only processes of the same user on
+    /// the same machine can use.
     [[nodiscard]] std::string unfinished_path() const;
     /// Move the file to its path. @throw BackendError
     void commit();

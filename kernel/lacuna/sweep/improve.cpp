@@ -17,8 +17,9 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Smallest ε of the barrier, relative to a cell's volume. It limits how flat cells may stay after
-/// untangling. A smaller value makes the minimisation ill-conditioned. Not measured.
+/// Smallest regularisation ε of the foldover-free energy, relative to the volume of a cell's reference box.
+/// It limits how flat cells may stay after untangling. A smaller value makes the minimisation
+/// ill-conditioned. Not measured.
 constexpr double kLeastEpsilon = 1e-3;
 /// Maximum number of untangling rounds, each with a smaller ε, and of consecutive rounds without gain. Both
 /// limit the time spent on cells that cannot be unfolded. Not measured.

@@ -43,8 +43,8 @@ struct PeriodicEquations {
 /// depends on the chain's first node.
 PeriodicEquations periodic_equations(const mesh::MeshView& view);
 
-/// A sector of a rotationally symmetric whole: its only pair is a rotation by a whole fraction of a turn, and
-/// no node is on the axis.
+/// A mesh as a sector of a rotationally symmetric whole: the only periodic pair of the mesh is a rotation by
+/// a whole fraction of a turn, and no node is on the axis.
 struct CyclicSector {
     int sectors = 0; ///< number of sectors in a full turn; 0: the mesh is no such sector
     Vec3 point = Vec3::Zero(), axis = Vec3::UnitZ();

@@ -25,7 +25,7 @@ public:
                 std::span<Vec3> room = {});
 
     /// Place the nodes of layers [first, last); layer 0 is the source and layer `columns.layers` the target.
-    /// They are bit-identical to those of `place_layers()`.
+    /// The nodes are bit-identical to those of `place_layers()`.
     /// @param out  (last - first) × source.nodes, layer-major.
     void place(int first, int last, std::span<Vec3> out, const RunContext& context = {}) const;
 
