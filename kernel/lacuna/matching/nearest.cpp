@@ -188,12 +188,11 @@ private:
                         .remedy("pair the loops with match{{ loops = … }}"));
             }
             if (source_.count(l) != target_.count(loop_[l])) {
-                throw NotClosed(
-                    Message("matching.edge_counts",
-                            "{} has {} edges and {} has {}, but method \"nearest\" needs equal numbers",
-                            source_loop(l), found(source_.count(l)), target_loop(loop_[l]),
-                            found(target_.count(loop_[l])))
-                        .remedy("use method = \"aligned\""));
+                // match() advises the other method where it has tried that method with success.
+                throw NotClosed("matching.edge_counts",
+                                "{} has {} edges and {} has {}, but method \"nearest\" needs equal numbers",
+                                source_loop(l), found(source_.count(l)), target_loop(loop_[l]),
+                                found(target_.count(loop_[l])));
             }
         }
     }
