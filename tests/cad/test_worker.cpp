@@ -228,7 +228,7 @@ TEST_CASE("a CAD process killed between calls costs its models nothing while the
         const std::string words = failure(project);
         CHECK(has(words, "cad.file_changed"));
         CHECK(has(words, path + " has changed"));
-        CHECK(has(words, "load the model from it again"));
+        CHECK(has(words, "call lacuna.load again"));
     }
     fs::remove(path);
     CHECK(has(failure(project), "cad.file_changed"));

@@ -2,6 +2,7 @@
 #include <lacuna/cad/detail/exact_geometry.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace lacuna::cad {
 
@@ -67,26 +68,23 @@ std::uint64_t CadSource::handle_in(const std::shared_ptr<Worker>& worker, const 
     const std::lock_guard lock(mutex_);
     if (held_.worker == worker) return held_.handle;
     const Held before = held_;
-    held_ = load_again(
-        worker, Message("cad.file_changed", "{}: its exact geometry is needed in another CAD process", path_),
-        context);
+    held_ = load_again(worker, context);
     before.worker->release(before.handle);
     return held_.handle;
 }
 
-void CadSource::renew(const Held& gone, const Message& why, const RunContext& context) const
+void CadSource::renew(const Held& gone, const RunContext& context) const
 {
     const std::lock_guard lock(mutex_);
     if (held_.worker != gone.worker) return; // another thread has reloaded it
-    held_ = load_again(Worker::current(&context, path_), why, context);
+    held_ = load_again(Worker::current(&context, path_), context);
 }
 
-CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Message& why,
-                                      const RunContext& context) const
+CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const RunContext& context) const
 {
     RunContext quiet = context; // the stage that is running reports progress, not the reload
     quiet.progress = {};
-    Message trouble("cad.file_changed", "{} has changed since it was loaded", path_);
+    MessageParts trouble = Message("cad.file_changed", "{} has changed since it was loaded", path_).parts();
     try {
         const CadFiles files = open_cad_files(order_, quiet);
         if (files.digest == digest_) {
@@ -98,11 +96,14 @@ CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Mess
     } catch (const WorkerGone&) {
         throw;
     } catch (const Error& error) {
-        trouble = error.message();
+        trouble = error.message().parts();
     }
+    const std::string remedy = std::exchange(trouble.remedy, {});
     throw BackendError(
-        Message("cad.file_changed", "{}, and loading the file again failed: {}", why.parts(), trouble.parts())
-            .remedy("restore the file, or load the model from it again"));
+        Message("cad.file_changed",
+                "the exact geometry is needed in a new CAD process, but cannot be loaded again: {}", trouble)
+            .remedy("{}", remedy.empty() ? "restore the file, or call lacuna.load again and rebuild the model"
+                                         : remedy));
 }
 
 // --- points ---------------------------------------------------------------------------------------------

@@ -118,8 +118,11 @@ public:
                 if (made.kind != SolidFace::exact || written_.insert({made.source, made.face}).second)
                     plan_.request.faces.push_back(std::move(made));
             } catch (const BackendError& error) {
-                throw BackendError("cad.face_failed", "{} cannot be written as a CAD face: {}",
-                                   entity_of(model_, FaceId(f)), error.message().parts());
+                const Message message("cad.face_failed", "{} cannot be written as a CAD face: {}",
+                                      entity_of(model_, FaceId(f)), error.message().parts());
+                throw BackendError(error.message().remedy().empty()
+                                       ? message.remedy("write the facets with write_facets")
+                                       : message);
             }
         }
         return std::move(plan_);

@@ -375,8 +375,8 @@ std::unique_lock<std::timed_mutex> Worker::enter(const Task& task)
     if (ended_)
         throw WorkerGone(Message("cad.worker_ended", "{}: the CAD process ended before this request ({})",
                                  task.subject, end_.empty() ? how_it_ended() : end_)
-                             .remedy("try again, or allow more with LACUNA_CAD_SECONDS and "
-                                     "LACUNA_CAD_MEGABYTES"));
+                             .remedy("try again, or allow more time (LACUNA_CAD_SECONDS) or memory "
+                                     "(LACUNA_CAD_MEGABYTES)"));
     return lock;
 }
 

@@ -143,11 +143,15 @@ cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& s
                 // Usually the copies come in the order of the originals.
                 const auto place = is(tag + last) ? std::find(fresh.begin(), fresh.end(), tag + last)
                                                   : std::find_if(fresh.begin(), fresh.end(), is);
-                if (place == fresh.end())
-                    throw BackendError(Message("cad.lost",
-                                               "{} of {} was not found in a BREP copy of its geometry",
-                                               NamedEntity{dim == 2 ? "face" : "curve", tag}, source.path)
-                                           .remedy("repair it in the CAD system"));
+                if (place == fresh.end()) {
+                    const char* const kind = dim == 2 ? "face" : "curve";
+                    throw BackendError(
+                        Message("cad.lost",
+                                "{} of {} cannot be used in the solid: the copy of the geometry that Open "
+                                "CASCADE made lacks this {}",
+                                NamedEntity{kind, tag}, source.path, kind)
+                            .remedy("repair the {} in the CAD system", kind));
+                }
                 matched[tag] = *place;
             }
             return matched;
@@ -307,8 +311,11 @@ cad_protocol::MakeSolidReply SolidBuilder::make(const cad_protocol::MakeSolidReq
             const std::vector<int> tags = session_.run([&] { return make_face(face); });
             faces.insert(faces.end(), tags.begin(), tags.end());
         } catch (const BackendError& error) {
-            throw BackendError("cad.face_failed", "{} cannot be written as a CAD face: {}", face.entity,
-                               error.message().parts());
+            const Message message("cad.face_failed", "{} cannot be written as a CAD face: {}", face.entity,
+                                  error.message().parts());
+            throw BackendError(error.message().remedy().empty()
+                                   ? message.remedy("write the facets with write_facets")
+                                   : message);
         }
         progress(static_cast<double>(f + 1) / static_cast<double>(request.faces.size()));
     }

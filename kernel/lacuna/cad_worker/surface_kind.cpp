@@ -59,15 +59,15 @@ bool collinear(const std::vector<Vec3>& points, double size, double precision)
 std::string kind_by_bending(int tag, const ParameterBox& box)
 {
     // Gmsh computes some second derivatives by finite differences, whose errors are about this large.
-    constexpr double kPrecision = 1e-4;
+    constexpr double kBendPrecision = 1e-4;
     const std::vector<Bend> bends = bends_of(tag, box);
     if (bends.empty()) return "surface";
     Eigen::AlignedBox3d bounds;
     for (const Bend& b : bends) bounds.extend(b.at);
     const double size = bounds.diagonal().norm();
-    const auto none = [&](double curvature) { return std::abs(curvature) * size < kPrecision; };
+    const auto none = [&](double curvature) { return std::abs(curvature) * size < kBendPrecision; };
     const auto alike = [&](double a, double b) {
-        return std::abs(a - b) <= kPrecision * std::max(std::abs(a), std::abs(b));
+        return std::abs(a - b) <= kBendPrecision * std::max(std::abs(a), std::abs(b));
     };
     const auto all = [&](auto&& test) { return std::all_of(bends.begin(), bends.end(), test); };
     const Bend& one = bends.front();
@@ -80,7 +80,7 @@ std::string kind_by_bending(int tag, const ParameterBox& box)
             if (none(b.first)) return "surface";
             centres.push_back(b.centre(b.first));
         }
-        return collinear(centres, size, kPrecision) ? "cone" : "surface";
+        return collinear(centres, size, kBendPrecision) ? "cone" : "surface";
     }
     if (all([&](const Bend& b) { return alike(b.first, one.first) && alike(b.second, one.first); }))
         return "sphere";
@@ -98,7 +98,7 @@ std::string kind_by_bending(int tag, const ParameterBox& box)
             const double other = first ? b.second : b.first;
             if (std::abs(other) * size > 0.05) centres.push_back(b.centre(other));
         }
-        if (matches && centres.size() > 2 && collinear(centres, size, kPrecision)) return "torus";
+        if (matches && centres.size() > 2 && collinear(centres, size, kBendPrecision)) return "torus";
     }
     return "surface";
 }

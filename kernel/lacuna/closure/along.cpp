@@ -147,8 +147,8 @@ private:
                                     entity_of(given_, face), place_with_digits(at, 4), found(largest_share()))
                                 .remedy("use a smaller thickness"));
         Message message("closure.along_folds",
-                        "the layers over {} fold at {}, at {:.3g} of the path: the path bends there within "
-                        "the width of the source, or runs along the source",
+                        "the layers over {} fold at {}, after a share of {:.3g} of the path: the path bends "
+                        "too sharply there for the width of the source, or runs along the source",
                         entity_of(given_, face), place_with_digits(at, 4), found(rows_[row]));
         throw NotClosed(std::move(message).remedy("use a wider bend, or a smaller source"));
     }

@@ -272,7 +272,7 @@ bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
         if (!on(at) || ends[index(at)] != 0) continue;
         throw InvalidInput(
             Message("closure.along_axis",
-                    "{} lies on the axis, but on none of the source's edges along the axis, and cells "
+                    "the source also touches the axis at {}, away from its edges on the axis, so cells "
                     "there would have no width",
                     entity_of(model, VertexId(v)))
                 .remedy("cut the region around this vertex out of the source"));

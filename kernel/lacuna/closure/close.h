@@ -124,9 +124,9 @@ struct Closed {
 /// Seal a volume: add void edges and faces with their geometry, and give every face its role.
 ///
 /// Uses Algorithms 2–6 of the paper (docs/bibliography.md) and, for classes II to V, one of its Algorithms
-/// 8–11. In class IV the missing end is added, in class V both ends. Departure: if wall edges lead from a
-/// matched vertex part of the way to the other one, a void edge closes the rest of the way; the paper joins
-/// only vertices that are on no wall.
+/// 8–11. In class IV the missing end is added, in class V both ends. Departure: the paper joins only matched
+/// vertices that are on no wall. Here, if wall edges lead part of the way from a matched vertex to its
+/// partner, a void edge joins the end of these wall edges to the partner.
 /// @param match  the match of source and target; ignored for classes IV and V, which lack an end.
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, the reason, and a shape or
 ///         direction that would seal it. "closure.shape_open": the shape of the missing faces is ambiguous

@@ -21,9 +21,10 @@ constexpr double kAstray = 0.005;
 /// kAstrayGuessed otherwise. The limits are higher, because walls with a given mesh and single twisted walls
 /// with few facets may have such a bow although the true wall is straight.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
-/// Walls that do not form a ring and whose bow exceeds kBeside may not be part of a sweep. Void edges that
-/// follow such walls are tried before straight ones only if an edge leaves its chord by more than kFarAstray.
-/// Both values are shares of the rims' radius.
+/// If walls that form no ring have a bow above kBeside, they possibly do not belong to a sweep. Void edges
+/// that follow such walls are then tried before straight ones only if an edge would leave its chord by more
+/// than kFarAstray. kBeside is relative to the radius of the source's rim, kFarAstray to the smaller radius
+/// of the two rims.
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
 /// If some walls form rings, a loop whose walls form no ring gets a motion of its own only if
 /// `missed_by_all()` of the loop exceeds this. Below this value, the rings represent the bend better. On 350

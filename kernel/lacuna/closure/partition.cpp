@@ -203,9 +203,10 @@ std::vector<Vec3> centres_of(const Model& model)
     return centres;
 }
 
-/// Three perpendicular directions for cuts through a centre. Normals of flat faces and directions to other
-/// centres are preferred. If these do not suffice, directions to vertices or points of edges are used: a cut
-/// then runs through these points, not closely beside a seam.
+/// Normals of three perpendicular planes to cut through a centre. Normals of flat faces and directions to
+/// other centres are preferred. If these do not suffice, directions to vertices or points of edges are used.
+/// Another of the planes then contains such a point. A plane that passes closely beside an edge would be
+/// refused.
 std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& centres,
                                   const OpenVolume& volume)
 {
@@ -309,9 +310,10 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, st
     return cuts;
 }
 
-/// The cuts of a piece that leave less length to cut, best first; only pieces without ends count. If a cut
-/// makes two pieces that both have ends, only this cut is returned. Cuts that leave the same length, such as
-/// those by coplanar faces, are listed once.
+/// The cuts that reduce the length to cut (`length_to_cut()`) of a piece, best first. Pieces that have ends
+/// need no further cut, so their length is not counted. A cut into two pieces that both have ends cannot be
+/// improved on and is returned alone. Of the cuts with the same remaining length, the same number of pieces
+/// and the same number of pieces without ends, only one is returned. Example: cuts by coplanar faces.
 std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                 const CanSweep& can_sweep, const RunContext& context)
 {

@@ -130,8 +130,9 @@ public:
         return found;
     }
 
-    /// The faces whose mean normal is within 60° of a direction: a flat end with its grooves and hollows. The
-    /// mean normal of a closed ring is 0 but for rounding.
+    /// The faces whose mean normal is within 60° of a direction, such as a flat end with its grooves and
+    /// hollows. Faces whose mean normal has a length of kFlat or less are left out: the mean normal of a
+    /// closed ring is 0 but for rounding, so its direction means nothing.
     [[nodiscard]] FaceSet facing(const Vec3& direction) const
     {
         FaceSet set = 0;

@@ -285,8 +285,10 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
     if (number == 0) {
         throw InvalidInput(
             Message("topology.roles_ambiguous",
-                    "the faces have equally likely readings with different volumes: {}", listed(readings))
-                .remedy("choose one with open_volume{{ faces = …, reading = 1 }}, or name its roles"));
+                    "the faces can be closed in several equally likely ways with different volumes: {}",
+                    listed(readings))
+                .remedy("choose one by its number, as in open_volume{{ faces = …, reading = 1 }}, or name "
+                        "source, target and walls"));
     }
     throw InvalidInput("topology.no_such_reading",
                        "the faces have no reading number {}; the likely ones are {}", found(number),

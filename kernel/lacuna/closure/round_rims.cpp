@@ -173,9 +173,9 @@ private:
     Vec3 out_; ///< away from the opposite end
 };
 
-/// The connected parts of an end. A face that stands upright on its neighbour in the end is a part of its
-/// own, because its rounds lie around its own top. Example: a product on a floor whose skin is one smooth
-/// face.
+/// The connected parts of an end, also divided at edges where a face rises steeply from its neighbour. The
+/// rounded edges of each part are then searched at the part's own rim. Example: a product stands on a floor,
+/// and the product's skin is one smooth face.
 std::vector<std::vector<FaceId>> parts_of_end(const OpenVolume& volume, Role end,
                                               const std::vector<double>& turns)
 {

@@ -165,7 +165,7 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
     }
     const bool even = side[0].chain.size() == side[2].chain.size() &&
                       side[1].chain.size() == side[3].chain.size();
-    // A twisted patch must not be represented by a few facets, because the swept mesh follows it.
+    // A twisted patch needs more than a few facets, because the swept mesh follows the facets.
     constexpr double kFewSegments = 8;
     const double across = (side[0].points.front() - side[2].points.front()).norm();
     const bool twisted = std::min(width, height) < kFewSegments && twist_of(side) > kVisible * across;

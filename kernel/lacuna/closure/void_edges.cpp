@@ -334,11 +334,13 @@ private:
         for (const Gap& gap : gaps_) {
             for (const VertexId end : {from, to}) {
                 if (gap.from != end && gap.to != end) continue;
-                throw InvalidInput(Message("closure.void_edge_contradicts",
-                                           "the void edge from {} to {}: {} is paired with {} by the match",
-                                           vertex(edge.from), vertex(edge.to), entity_of(model, end),
-                                           entity_of(model, gap.from == end ? gap.to : gap.from))
-                                       .remedy("pair the vertices with match{{ vertices = … }}"));
+                throw InvalidInput(
+                    Message("closure.void_edge_contradicts",
+                            "the void edge from {} to {} contradicts the match, which pairs {} with {}",
+                            vertex(edge.from), vertex(edge.to), entity_of(model, end),
+                            entity_of(model, gap.from == end ? gap.to : gap.from))
+                        .remedy("leave the edge out, or pair {} with {} in match{{ vertices = … }}",
+                                vertex(edge.from), vertex(edge.to)));
             }
         }
     }

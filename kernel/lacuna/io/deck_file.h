@@ -74,12 +74,13 @@ struct JoinedBefore {
 ///
 /// Groups of the skin become sets as in `write_mesh()`; in UNV, sets of nodes. The new region gets the number
 /// after the highest property. If several nodes of the deck coincide, the skin uses the node of the elements
-/// with which it shares a face or, if there are none, a side.
+/// with which it shares a face or, if there are none, an edge of a face.
 ///
 /// If the file has the deck's format, a card gives the region its material: a PSOLID in Nastran, a *SOLID
 /// SECTION before the first *STEP in Abaqus. There is no card if the deck already has a section for the set.
-/// By default the material is that of the region with the most faces on the mesh, and the log says so. If
-/// that region has no material, Nastran's PSOLID names material 1, and Abaqus gets no section.
+/// By default the material is that of the region with the most faces on the mesh, among the regions that have
+/// a material, and the log says so. If no such region touches the mesh, Nastran's PSOLID names material 1,
+/// and Abaqus gets no section.
 /// If `leave_out()` removed parts from `deck` and thereby emptied a region, a mesh of the same name replaces
 /// that region. It takes over the region's number, sets, sections and properties, and the material from their
 /// cards.
@@ -105,8 +106,9 @@ Deck join_deck(const Deck& deck, const topology::Model& model, double scale, con
 
 /// Convert a deck of a format in which faces of solids are elements (MSH, VTK, Medit) to a format in which
 /// such elements would be shells (Abaqus, Nastran, Exodus). Elements on faces of solids become sets of nodes
-/// and of sides. These are named after the elements' sets; without sets, after their region or its number:
-/// `surface:3`. Other elements are unchanged.
+/// and, except in Nastran, sets of sides. The sets of an element keep their names. An element in no set goes
+/// to sets with the name of its region or, if the region has none, with the region's number: `surface:3`.
+/// Other elements are unchanged.
 /// @note  O(n log n) in the two-dimensional elements, O(n) in the solids.
 Deck skin_as_sets(Deck deck, DeckFormat format);
 

@@ -248,8 +248,8 @@ private:
                                        "elements have {} quads and {} triangles there",
                                        entity_of(patch), found(matched), needed(quads), given,
                                        face->triangles.size() - std::min(2 * given, face->triangles.size()))
-                                   .remedy("sweep with the deck's mesh kept on this face (mesh:report lists "
-                                           "the kept meshes)"));
+                                   .remedy("load the deck with keep_mesh = true, and sweep with quads = "
+                                           "\"auto\" or \"keep\" (mesh:report lists the kept meshes)"));
         }
     }
 

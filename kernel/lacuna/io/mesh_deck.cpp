@@ -245,7 +245,7 @@ private:
         if (wedges && is_layer(element_) && layer_wedge(element_).empty())
             throw InvalidInput(
                 Message("io.element",
-                        "element = \"{}\": the mesh has wedges, but there is no such element with six nodes",
+                        "element = \"{}\": the mesh has wedges, but this type has no variant with six nodes",
                         element_)
                     .remedy("use SC8R, COH3D8 or GK3D8"));
         if (is_abaqus_element(element_, shape)) return;

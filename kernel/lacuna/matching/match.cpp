@@ -376,10 +376,11 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
         throw NotClosed(
             Message(
                 "matching.loop_counts",
-                "the source ({}) has {} {} and the target has {} ({}), but both ends need the same number",
+                "the source ({}) has {} {}, but the target ({}) has {}: both ends need the same number of "
+                "loops",
                 entities_of(model, volume.faces(Role::source)), found(result.source_loops.size()),
-                result.source_loops.size() == 1 ? "loop" : "loops", found(result.target_loops.size()),
-                entities_of(model, volume.faces(Role::target)))
+                result.source_loops.size() == 1 ? "loop" : "loops",
+                entities_of(model, volume.faces(Role::target)), found(result.target_loops.size()))
                 .remedy("if a body stands on an end, also name the body's top as part of that end"));
     }
     Problem problem = problem_of(volume, options, result, context);

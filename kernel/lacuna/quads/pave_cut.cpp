@@ -158,7 +158,9 @@ private:
         return Line{i, j, reach, cost, part_i, part_j};
     }
 
-    /// @return empty if the line cannot have edges, or if its cost with edges is `most` or more
+    /// Choose the number of edges on a line, and add the cost of this number to the cost of the line.
+    /// @return  the cut and its total cost; empty if no number of edges is possible, or if the cost is `most`
+    ///          or more
     [[nodiscard]] std::optional<Choice> judge(const Line& line, double most) const
     {
         const auto& [i, j, reach, cost, part_i, part_j] = line;

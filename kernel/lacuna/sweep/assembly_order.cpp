@@ -85,8 +85,8 @@ std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember
             names += (names.empty() ? "" : ", ") + members[m].region;
     }
     throw NotSweepable(Message("assembly.round",
-                               "{}: each of these volumes lacks a face that another one has and must be "
-                               "meshed after that one, so none can be the first",
+                               "{}: each of these volumes lacks a face that comes from the mesh of another "
+                               "one, so none of them can be meshed first",
                                names)
                            .remedy("give one of them its missing face"));
 }

@@ -303,14 +303,12 @@ void EdgeCounts::check_rows() const
         if (taken < count) continue;
         const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
         const AssemblyMember &own = edges_.members()[end.member], &other = edges_.members()[edges_[e].member];
-        throw NotSweepable(
-            Message(
-                "assembly.layers_rows",
-                "{} of {} has {} sides, but needs at least {} sides, because {} rows of boundary layers end "
-                "there, among them those of {} of {}",
-                entity_in(other, edges_[e].edge), other.region, found(count), needed(taken + 1), taken,
-                entity_in(own, end.face), own.region)
-                .remedy("use fewer rows, or more layers or intervals there"));
+        throw NotSweepable(Message("assembly.layers_rows",
+                                   "{} of {} has {} sides, but {} rows of boundary layers end on it (among "
+                                   "them those of {} of {}), so at least {} sides are needed",
+                                   entity_in(other, edges_[e].edge), other.region, found(count), taken,
+                                   entity_in(own, end.face), own.region, needed(taken + 1))
+                               .remedy("use fewer rows, or more 'layers' or 'intervals'"));
     }
 }
 

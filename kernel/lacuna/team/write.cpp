@@ -94,11 +94,15 @@ const Format& format_of(const WriteRequest& request, const io::OutputPath& path)
     const Format& format = io::needed_mesh_format("write", path.text());
     const char* const idle = idle_option(format, request);
     if (idle == nullptr) return format;
-    const bool unparted = idle == std::string_view("ghosts") && format.has_option("ghosts");
-    throw InvalidInput(Message("lua.idle_option", "write: {} files {}have no option '{}'{}", format.ending,
-                               request.with.empty() ? "" : "with = model ", idle,
-                               unparted ? " without 'partitions'" : "")
-                           .remedy("leave it out"));
+    const bool exists = format.has_option(idle);
+    if (exists && request.with.empty())
+        throw InvalidInput(Message("lua.idle_option", "write: option '{}' of {} files needs option '{}'",
+                                   idle, format.ending,
+                                   idle == std::string_view("ghosts") ? "partitions" : "with")
+                               .remedy("give both, or leave '{}' out", idle));
+    throw InvalidInput(Message("lua.idle_option", "write: {} files cannot have option '{}'{}", format.ending,
+                               idle, exists ? " together with option 'with'" : "")
+                           .remedy("leave '{}' out", idle));
 }
 
 void write_options_beside(const WriteRequest& request, const io::OutputPath& path)

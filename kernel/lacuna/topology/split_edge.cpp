@@ -94,10 +94,10 @@ SplitPlace place_of_split(const Model& model, EdgeId id, const std::vector<FaceI
                                         [&](FaceId f) { return !model[f].given_quads.empty(); });
     if (with_mesh != users.end() && !has_inner) {
         throw InvalidInput(Message("topology.split_kept_mesh",
-                                   "{} cannot be split without changing the given mesh of {}, which has no "
-                                   "node inside the edge",
+                                   "{} needs a vertex between its ends, but the given mesh of {} has no node "
+                                   "there",
                                    entity_of(model, id), entity_of(model, *with_mesh))
-                               .remedy("load with keep_mesh = false, or pair the edge's own vertices"));
+                               .remedy("load with keep_mesh = false"));
     }
     std::size_t nearest = 0; // the inner point closest to the place
     if (has_inner)

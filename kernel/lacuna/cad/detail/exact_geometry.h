@@ -45,9 +45,9 @@ public:
             const Held held = now();
             try {
                 return held.worker->ask<Reply>(opcode, make(held.handle), task);
-            } catch (const WorkerGone& gone) {
+            } catch (const WorkerGone&) {
                 if (i + 1 == kTries) throw;
-                renew(held, gone.message(), *task.context);
+                renew(held, *task.context);
             }
         }
     }
@@ -66,9 +66,8 @@ private:
         std::uint64_t handle = 0;
     };
     [[nodiscard]] Held now() const;
-    void renew(const Held& gone, const Message& why, const RunContext& context) const;
-    [[nodiscard]] Held load_again(std::shared_ptr<Worker> worker, const Message& why,
-                                  const RunContext& context) const;
+    void renew(const Held& gone, const RunContext& context) const;
+    [[nodiscard]] Held load_again(std::shared_ptr<Worker> worker, const RunContext& context) const;
 
     std::string path_;
     CadOrder order_;

@@ -82,7 +82,8 @@ CadWire read_wire(double tolerance);
 /// edge.
 void divide(CadWire& wire, const Fineness& fineness, const std::vector<double>& refinement);
 
-/// Parameters and model points of a piece at the points of its edge, in the direction of the piece.
+/// For each point of the edge to which a piece was sewn, in the direction of the piece: its parameter on the
+/// piece's curve, and its model point.
 struct PieceNodes {
     std::vector<double> params;
     std::vector<Index> points;

@@ -42,12 +42,13 @@ void assume(Closure& closure, Message note, double share);
 /// each missing wall by a quarter of its width, where the width is 4 area / perimeter.
 void assume_walls(const topology::OpenVolume& sealed, const Message& note, Closure& closure);
 
-/// Note three kinds of assumptions (see `assume()` for their effect on the volume):
-/// - A hole of a given face is closed by a wall in the face's plane, although a pocket may be missing behind
-///   it. The assumed pocket is as deep as its mouth is wide.
-/// - The normals of the given faces point into the void, and a void face that belongs to an end covers a hole
-///   of a given face.
-/// - The normals of the given faces point into the void, and a void face is the smaller part of a ball.
+/// Note assumptions about void faces, with the relative change of the volume if an assumption is wrong
+/// (`assume()`):
+/// - If the normals of the given faces do not point into the void: a wall that closes a hole of a given face
+///   in the face's plane. A pocket may be missing behind the wall. It is assumed to be as deep as the hole is
+///   wide.
+/// - If the normals point into the void: a face of an end that covers a hole of a given face.
+/// - If the normals point into the void: a void face that is the smaller part of a ball.
 void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& given,
                        const topology::OpenVolume& sealed, Closure& closure);
 

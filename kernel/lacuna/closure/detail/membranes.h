@@ -13,9 +13,10 @@ namespace lacuna::closure {
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 bool is_membrane(const topology::Model& model, FaceId face);
 
-/// Whether the rim determines how a face bends: the inside of the face is near the only quadric through the
-/// rim. If many quadrics go through the rim, it is near a sphere, a circular cylinder, a cone or a pair of
-/// planes among them.
+/// Whether the rim determines how a face bends. If only one quadric goes through the rim, the face must be
+/// near this quadric. If many quadrics do, the face must be near one of them that is a sphere, a circular
+/// cylinder, a cone or a pair of planes. False for a face with several loops that are all flat, because many
+/// surfaces go through such loops.
 bool bends_as_rim(const topology::Model& model, FaceId face);
 
 /// Whether all points of a face are close to its plane, compared with the extent of the face.

@@ -29,7 +29,8 @@ topology::Classification class_as_given(const topology::Model& model, const topo
 void set_ends(topology::OpenVolume& volume, const topology::Roles& roles);
 
 /// The reading of the void `found` with its best sweep direction. Empty if a likelier void has the same ends.
-/// @param likelier  all voids, `found` among them, the likeliest first
+/// @param likelier  all voids, the likeliest first; `found` is one of them. The voids before `found` are
+///         likelier.
 std::optional<Reading> read(const topology::Model& model, const std::vector<Void>& likelier, Void& found,
                             const RunContext& context);
 

@@ -44,8 +44,9 @@ struct CountRange {
 /// that `measure_plane()` accepts. kSegment applies to other segments with four or more sides, and is the
 /// range that `pattern_counts()` promises. Segments with fewer sides may change by one side.
 inline constexpr CountRange kRing{1 / kLongestOfSize, 1 / kShortestOfSize}, kSegment{1 / 1.25, 1.25};
-/// Rounding may exceed a ring's range by this factor, so that segments that repeat along a loop still get
-/// equal numbers. A larger value preserves more symmetry, but the edges of one loop then miss their size.
+/// The range kRing is widened by this factor for single segments (`kRingSegment`). Segments that repeat along
+/// a loop then get equal numbers of sides, although each number is rounded. A larger factor preserves more
+/// symmetry, but lets edges deviate more from their size.
 inline constexpr double kRingRounding = 1.03;
 inline constexpr CountRange kRingSegment{kRing.least / kRingRounding, kRing.most* kRingRounding};
 

@@ -12,7 +12,7 @@
 
 namespace lacuna::quads {
 
-/// Symmetries whose angles differ by less than this count as the same [radian]. The value is far above the
+/// Two symmetries are the same if their angles differ by less than this [radian]. The value is far above the
 /// accuracy of nodes, and far below the angle between two symmetries.
 inline constexpr double kSameAngle = 1e-5;
 
@@ -44,9 +44,10 @@ struct Symmetry {
     std::vector<Index> to;
 };
 
-/// The symmetries of a region's boundary nodes, except the identity. If there are more than 64 rotations,
-/// only a subgroup of at most 64 is returned. It contains the quarter turns. It contains mirror axes only if
-/// one of them passes through the first node of the outer loop.
+/// The symmetries of a region's boundary nodes, except the identity. If the region has more than 64
+/// rotations, only a subgroup with at most 64 of them is returned. The subgroup includes the quarter turns,
+/// if these are symmetries. It includes reflections only if the axis of one passes through the first node of
+/// the outer loop.
 /// @note  O(nodes) for each node of the outer loop that has the largest distance from the centre. Most of
 ///         these candidates are no symmetries and are rejected at once.
 std::vector<Symmetry> outline_symmetries(const PlanarRegion& region);
