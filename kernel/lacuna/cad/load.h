@@ -1,6 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: CAD files, a sealed volume, a closed skin or a plane region; out: a model with exact geometry, a CAD
+// file, tetrahedra or quads.
+//
+// Where to change things:
+//   model of what the process read       load.cpp
+//   which files are opened; GEO scripts  cad_files.cpp, script.cpp
+//   the process: start, limits, end      worker.cpp; where it is found: worker_program.cpp
+//   exact curves and surfaces            exact_geometry.cpp
+//   writing STEP or BREP                 write_cad.cpp; what the solid needs: solid_plan.cpp
+//   splines of void faces and edges      void_patch.cpp, edge_shape.cpp, spline_patch.cpp
+//   tetrahedra inside a skin             fill_skin.cpp; pyramids on its quads: pyramid_layer.cpp
+//   quads by Gmsh                        recombine.cpp
+
 #include <lacuna/cad/limits.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/io/load_facets.h>

@@ -1,6 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: an open volume with its match, or faces without roles; out: a sealed volume, or its pieces for several
+// sweeps.
+//
+// Where to change things:
+//   options, order of tries, notes          close.cpp; each class: close_class.cpp
+//   void edges; loops of void faces         void_edges.cpp, void_faces.cpp
+//   shape of a void face                    void_geometry.cpp, transfinite_fill.cpp, rim_quadrics.cpp
+//   void edges along bent walls             follow.cpp
+//   missing end like the given one          moved_end.cpp
+//   flat faces in free loops                flat_fill.cpp, split_loop.cpp, touching_faces.cpp
+//   missing round walls                     round_walls.cpp
+//   holes in ends; ends of walls alone      end_holes.cpp, class_five.cpp
+//   whether a closing is ambiguous          guesses.cpp, membranes.cpp
+//   void faces that cross other faces       sealing.cpp
+//   voids of faces without roles            readings.cpp, sealed_voids.cpp
+//   error if no roles are found             no_roles.cpp
+//   cavities of solids, facts of a model    cavities.cpp, model_facts.cpp
+//   best direction of a sweep               void_sweeps.cpp
+//   hollows with a round bottom or a floor  hollow_readings.cpp, bowl.cpp
+//   a source alone                          along.cpp; its motion: along_motion.cpp
+//   one plane cut                           cut.cpp, pieces.cpp; a full turn: full_turn.cpp
+//   steps, branches, rounded rims           steps.cpp, branches.cpp, round_rims.cpp
+//   candidates of cuts                      cut_planes.cpp
+//   which cuts are made                     partition.cpp; a block per vertex: midpoint.cpp
+//   ends of pieces                          piece_ends.cpp
+//   walls that become part of an end        smooth_ends.cpp, stubs.cpp
+
 #include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/matching/match.h>

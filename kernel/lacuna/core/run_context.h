@@ -1,6 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: a host's settings for a computation; out: the threads, errors, messages and ids that every folder
+// uses.
+//
+// Where to change things:
+//   number of threads, cancelling, log lines   run_context.cpp
+//   parallel loop; one job beside the caller   parallel.cpp, shared/background.h
+//   work shared by several processes           team.cpp
+//   classes of errors; what a message names    error.h, message.h
+//   text of a message; numbers in messages     message_text.cpp, number_text.cpp
+//   limits that several folders share          shared/criteria.h
+//   labels that CAD programs write by default  default_labels.cpp
+//   bytes sent between processes               shared/bytes.h
+//   code for several instruction sets          shared/vector_code.h
+
 #include <atomic>
 #include <functional>
 #include <string_view>

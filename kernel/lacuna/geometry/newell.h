@@ -1,6 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: points, triangles and plane regions, without a model; out: planes, fits, triangulations, maps and
+// motions.
+//
+// Where to change things:
+//   planes of loops and faces              newell.cpp
+//   lengths and points along polylines     polyline.cpp
+//   closest points, crossings, rays        facet_tree.cpp
+//   exact signs; crossing loops            predicates.cpp, crossing.cpp
+//   triangulating a plane region           triangulate.cpp, over delaunay.cpp
+//   flattening facets                      flatten.cpp; its maps: flatten_maps.cpp, flatten_ring.cpp
+//   harmonic values on triangles           harmonic.cpp
+//   affine and rigid fits; principal axes  affine.cpp, spread.cpp
+//   patches between four sides             transfinite.cpp; along a bend: swept_patch.cpp
+//   motions of a source; along a path      motion.cpp, sweep_path.cpp
+//   exact curves and surfaces              exact.h; those that a motion makes: swept_surface.cpp
+//   linear systems                         dense_solve.cpp, sparse_factor.cpp, multigrid.cpp
+//   minimising a function                  minimise.cpp
+
 #include <lacuna/core/types.h>
 
 #include <span>

@@ -1,6 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: facets as read from a file, or a model whose faces do not share edges; out: a model whose faces share
+// edges.
+//
+// Where to change things:
+//   steps of split_facets()           split_facets.cpp
+//   checks and repairs of the facets  soup_facets.cpp, weld.cpp, t_junctions.cpp
+//   normals, by which faces end       facet_normals.cpp
+//   points of noisy scans             smooth_noise.cpp
+//   growing one face from a point     grow_face.cpp
+//   steps of stitch()                 stitch.cpp; changes to the model: loose_model.cpp
+//   distance to an edge               edge_track.cpp
+//   thin and repeated faces           surplus_faces.cpp, coincident_faces.cpp
+//   orientation of faces              orient_groups.cpp
+//   faces that a recipe makes         added_faces.cpp
+
 #include <lacuna/core/run_context.h>
 #include <lacuna/topology/model.h>
 

@@ -1,6 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: files to read, or meshes and decks to write; out: a model with the decks that it was read from, or
+// files.
+//
+// Where to change things:
+//   table of formats                           formats.cpp
+//   options of reading, joining files          load_facets.cpp; units: units.cpp
+//   data of a mesh file, reading it            deck.h, deck.cpp
+//   common parts of readers                    deck_builder.cpp, cursor.cpp; of writers: deck_writer.cpp
+//   reader of a format                         <format>_reader.cpp, dyna.cpp, med.cpp
+//   cards and frames of Nastran                nastran_cards.cpp, nastran_frames.cpp
+//   faces of a mesh                            deck_facets.cpp
+//   options of writing                         mesh_file.cpp
+//   writer of a format                         <format>_writer.cpp, msh.cpp, vtk.cpp, dyna.cpp, med.cpp
+//   what writers see of meshes and decks       swept_view.cpp, deck_view.cpp; nodes: node_reader.cpp
+//   parallel writing; files that appear whole  sections.cpp, whole_file.cpp; folders: whole_folder.cpp
+//   facets of a sealed volume                  facets.cpp
+//   adding a mesh to a deck, to its sets       join_deck.cpp, mesh_deck.cpp, join_sets.cpp
+//   several decks; parts left out              merge_decks.cpp, leave_out.cpp
+//   parts for a solver                         partition.cpp; one as a view: view_piece.cpp
+//   values of cells; periodic nodes            cell_field.cpp, periodic_nodes.cpp
+
 #include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/healing/split_facets.h>

@@ -1,6 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: an open volume with both ends; out: pairs of its source and target loops and vertices, and splits of
+// edges.
+//
+// Where to change things:
+//   steps of match()                      match.cpp
+//   pairs that walls and the user fix     problem.cpp
+//   chains of wall edges from rim to rim  side_lines.cpp
+//   sections of the walls                 guides.cpp
+//   which loops are paired                arrange.cpp, assignment.cpp
+//   fit of one loop onto another          alignment.cpp; its sample points: loop_shape.cpp
+//   which vertices are paired             arc_pairs.cpp; method "nearest": nearest.cpp
+//   corners of a loop                     corners.cpp
+//   splits that make a partner            splits.cpp
+
 #include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/matching/side_lines.h>

@@ -1,6 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: quads, layers and node positions that `sweep` computes; out: meshes as arrays, and views of them for
+// writers.
+//
+// Where to change things:
+//   corners and sides of cells; patches of the skin  hex_mesh.h, quad_mesh.h
+//   neighbours of quads; quads of the skin           mesh.cpp
+//   shapes of cells, order of their nodes            cell_shape.cpp
+//   numbering of middle nodes                        second_order.cpp
+//   tetrahedra and pyramids                          tet_mesh.cpp
+//   nodes that are computed on demand                layered_nodes.cpp
+//   common numbering of several meshes               mesh_part.h
+//   what a writer sees                               shared/mesh_view.h, mesh_view.cpp
+//   directions of cells                              orientation.cpp
+
 #include <lacuna/core/types.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/mesh/second_order.h>

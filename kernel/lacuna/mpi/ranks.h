@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: the processes that `mpirun` started; out: a `Crew`, on which rank 0 starts tasks and the others help.
+//
+// Where to change things:
+//   start and end of MPI, messages between ranks  ranks.cpp
+//   one file for all processes                    shared_file.cpp
+
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/shared/team.h>
 

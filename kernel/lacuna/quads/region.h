@@ -1,6 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: a region of the plane with its boundary nodes and a size; out: quads that keep these nodes.
+//
+// Where to change things:
+//   checks of a region, steps of pave()     pave.cpp
+//   which fillings are tried, their score   pave_choice.cpp; one of them: pave_attempt.cpp
+//   grid in an outline of right angles      submap.cpp, submap_grid.cpp
+//   bent grids; around a hole               face_pattern.cpp, pattern_ring.cpp
+//   numbers of sides for one grid           pattern_counts.cpp, straight_counts.cpp, ring_counts.cpp,
+//                                           star_counts.cpp, mirror_counts.cpp
+//   rows along the boundary, their heights  pave_rows.cpp, row_heights.cpp; on some sides: boundary_rows.cpp
+//   cuts; joining holes to the outline      pave_core.cpp, pave_cut.cpp, pave_bridge.cpp
+//   parts filled by one patch               pave_fit.cpp, patch_template.cpp, template_cuts.cpp
+//   size inside the region                  pave_size.cpp
+//   large regions: coarse, then divided     pave_coarse.cpp, coarse_region.cpp, split_cells.cpp
+//   last resort: triangles                  triangle_quads.cpp
+//   fewer irregular nodes                   clean_quads.cpp, clean_patch.cpp, clean_trial.cpp
+//   smoothing, untangling                   smooth_plane.cpp, untangle_plane.cpp, raise_flat_quads.cpp
+//   symmetric regions                       outline_symmetry.cpp, symmetry.cpp
+//   odd number of sides                     odd_region.cpp
+//   how good plane quads are                measure_plane.cpp
+
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 

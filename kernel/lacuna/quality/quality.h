@@ -1,6 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: a mesh or a list of cells; out: metrics, and a proof that the mesh is valid or the first fault in it.
+//
+// Where to change things:
+//   conditions of a valid mesh            prove.cpp; of a list of cells: prove_cells.cpp
+//   statistics of cells                   measure.cpp; their table: text.cpp
+//   scaled Jacobian, Bézier coefficients  cell_batch.cpp; wedges: wedge.cpp
+//   pyramids and tetrahedra               other_cells.cpp
+//   whether a Jacobian is positive        positive.cpp
+//   cells of order 2                      curved_cell.cpp
+//   Verdict's metrics                     metrics.cpp; their formulas: cell_metrics.cpp
+//   coincident nodes                      coincident.cpp
+//   nodes that are computed on demand     layered.cpp
+
 #include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>

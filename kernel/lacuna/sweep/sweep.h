@@ -1,6 +1,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: one or several sealed volumes with options; out: hexahedra and wedges that were proved valid, and a
+// report.
+//
+// Where to change things:
+//   checks of options                          check_options.cpp
+//   candidates of a single sweep, their trial  plans.cpp, sweep.cpp; steps of one: sweep_between.cpp
+//   heights of layers, sizes by default        plan_heights.cpp, heights.cpp, volume_share.cpp
+//   source quads; their outline                source_quads.cpp, mean_outline.cpp
+//   source mesh on the target                  morph.cpp, morph_ends.cpp
+//   inner nodes of layers                      layers.cpp; on demand: layer_plan.cpp
+//   thickness of boundary layers               keep_thickness.cpp
+//   improving cells: when, which, how          prove_or_improve.cpp, cell_region.cpp, improve.cpp
+//   given meshes of walls and rims             given_meshes.cpp
+//   middle nodes of order 2                    second_order.cpp, middle_placer.cpp, side_middles.cpp
+//   skin against the sealed skin               fidelity.cpp, compare_face.cpp
+//   quads turned around an axis                turn_at_axis.cpp
+//   quads without layers                       shell_quads.cpp
+//   assembly: steps; order of members          assembly.cpp, assembly_order.cpp
+//   assembly: shared faces, gaps               shared_faces.cpp, assembly_imprint.cpp, near_misses.cpp
+//   assembly: lines through members            carry_lines.cpp
+//   assembly: which edges are the same         same_edges.cpp
+//   assembly: numbers of sides                 edge_counts.cpp; heights of layers: assembly_levels.cpp
+//   assembly: places of edge nodes             assembly_plan.cpp
+//   assembly: common node numbers              assembly_nodes.cpp; periodic faces: periodic.cpp
+
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>

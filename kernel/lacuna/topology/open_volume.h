@@ -1,6 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: a model of vertices, edges and faces; out: its faces with roles as an open volume, and the class of
+// the volume.
+//
+// Where to change things:
+//   arrays of a model, building them     model.h, model.cpp
+//   checks of an open volume, its class  open_volume.cpp
+//   roles if none are named              auto_roles.cpp; walls of given ends: auto_walls.cpp
+//   candidates for ends                  patches.cpp
+//   free loops, rims of faces            rims.cpp
+//   hollows of a solid, bodies inside    hollows.cpp
+//   narrow gaps between parts            gaps.cpp
+//   splitting faces along a plane        section.cpp; points on facet sides: side_points.cpp
+//   splitting an edge                    split_edge.cpp
+//   given nodes and quads                give_mesh.cpp
+//   selecting faces, facts about them    select_faces.cpp, face_facts.cpp, face_radius.cpp
+//   groups of faces in files             skin_groups.cpp
+//   faces left out of a CAD file         left_out.cpp
+
 #include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/topology/model.h>

@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: a model, a volume, meshes or a deck; out: an HTML page or a PNG picture.
+//
+// Where to change things:
+//   page of a model or a volume  faces_page.cpp
+//   page of cells                cells_page.cpp; cells, their groups and quality: cell_set.cpp
+//   frame and file of a page     page.cpp; script and style: page/
+//   numbers inside a page        base64.cpp, json.cpp
+//   picture: what is drawn       picture.cpp, scene.cpp; colours of quality: palette.cpp
+//   picture: legend, letters     legend.cpp, stroke_font.cpp
+//   picture: pixels, file        raster.cpp, png.cpp
+
 #include <lacuna/core/run_context.h>
 #include <lacuna/io/deck.h>
 #include <lacuna/io/whole_file.h>

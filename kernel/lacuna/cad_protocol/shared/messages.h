@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: requests and replies as structs; out: their bytes on the socket, and the structs again, checked.
+//
+// Where to change things:
+//   contents of a message         messages.h
+//   checks of received messages   messages.cpp
+//   frames, descriptors, waiting  channel.cpp
+
 #include <lacuna/core/message.h>
 #include <lacuna/core/shared/bytes.h>
 

@@ -1,6 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: a sealed volume, its matched loops and sizes; out: quads on source and walls, or triangles on a skin.
+//
+// Where to change things:
+//   quads on all source faces             source_mesh.cpp; inside one face: fill_face.cpp
+//   numbers of sides: order of steps      seeds.cpp
+//   numbers of sides: size and curvature  seed_edges.cpp; requests: sides_asked.cpp, intervals.cpp
+//   numbers of sides: integer program     seed_program.cpp, over interval_program.cpp
+//   numbers of sides: grids, parity       fit_grids.cpp, even_sides.cpp
+//   which faces are mapped                face_grids.cpp; spacing on their sides: square_lines.cpp
+//   size by default; reduced by shape     default_size.cpp, shape_size.cpp
+//   walls between two loops               linking_surface.cpp; their map: linking_map.cpp
+//   nodes and quads on walls              walls.cpp, strip_grid.cpp
+//   edges inside walls                    wall_net.cpp, wall_breaks.cpp
+//   rim nodes on coarse facets            rim_breaks.cpp
+//   given meshes of walls and target      given_columns.cpp, given_wall.cpp, given_target.cpp
+//   boundary layers                       boundary_layers.cpp
+//   inner edges of the target             imprint.cpp, flat_ends.cpp, alike_ends.cpp
+//   projection onto a face                projector.cpp
+//   triangles of a skin                   skin_triangles.cpp, skin_remesher.cpp; their size: skin_size.cpp
+
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/region.h>
 #include <lacuna/surface/shared/seeds.h>

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// In: a mesh and a user's options for writing; out: files, written by one or several processes.
+//
+// Where to change things:
+//   options, which writer is called  write.cpp
+//   tasks of several processes       tasks.cpp
+
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/shared/team.h>
 #include <lacuna/fill.h>
