@@ -547,7 +547,7 @@ TEST_CASE("loops that differ in number are refused, and both numbers named")
             const auto volume = open_volume(healing::split_facets(soup, split),
                                             {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
             CHECK(refusal([&] { matching::match(volume); },
-                          {std::to_string(low + 1) + (low == 0 ? " loop " : " loops "),
+                          {std::to_string(low + 1) + (low == 0 ? " loop, " : " loops, "),
                            ") has " + std::to_string(high + 1) + ": both"}) == "matching.loop_counts");
         }
     }

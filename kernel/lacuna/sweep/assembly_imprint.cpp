@@ -156,6 +156,8 @@ struct SideOfPair {
     bool fixed = false;   ///< the skin of a given mesh, which is not changed
     NamedEntity whole{};  ///< the face before parts were split off
     std::string region{}; ///< region of the member
+    /// For each face that the imprint has added to the volume, the face it is a part of.
+    std::vector<FaceId>* parents = nullptr;
 
     [[nodiscard]] Model& model() const { return volume->model; }
 };
@@ -263,9 +265,13 @@ std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::v
     }
     side.model() = std::move(model).finish();
     std::vector<FaceId> parts{side.face};
+    // A line may also lie on another face, if two faces overlap, and split that one.
+    const std::size_t given = side.volume->role.size() - side.parents->size();
     for (std::size_t f = side.volume->role.size(); f < made.parent.size(); ++f) {
-        side.volume->role.push_back(side.volume->role[made.parent[f].index()]);
-        if (made.parent[f] == side.face) parts.emplace_back(f);
+        const FaceId from = made.parent[f];
+        side.volume->role.push_back(side.volume->role[from.index()]);
+        side.parents->push_back(from.index() < given ? from : (*side.parents)[from.index() - given]);
+        if (from == side.face) parts.emplace_back(f);
     }
     if (!flat) return parts;
     std::vector<std::vector<EdgeUse>> straight;
@@ -379,16 +385,18 @@ FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const Assembl
     };
     FaceImprint imprint;
     imprint.parents.resize(volumes.size());
-    std::vector<std::size_t> before;
-    for (const OpenVolume& volume : volumes) before.push_back(volume.model.faces.size());
     for (const PartlyShared& pair : pairs) {
         check_cancelled(context);
         const SharedFace& faces = pair.faces;
         const AssemblyMember &a = members[faces.a], &b = members[faces.b];
         const NamedEntity face_a = entity_in(a, faces.face_a), face_b = entity_in(b, faces.face_b);
         const auto side = [&](std::size_t m, FaceId face) {
-            return SideOfPair{&volumes[m], face, members[m].fixed != nullptr, m == faces.a ? face_a : face_b,
-                              members[m].region};
+            return SideOfPair{&volumes[m],
+                              face,
+                              members[m].fixed != nullptr,
+                              m == faces.a ? face_a : face_b,
+                              members[m].region,
+                              &imprint.parents[m]};
         };
         // Earlier pairs may have split both faces. Compare every part of one face with every part of the
         // other.
@@ -407,14 +415,6 @@ FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const Assembl
         imprint.report.push_back(
             formatted("imprinted: {} of {} and {} of {} share a part, which is now a face of both", face_a,
                       a.region, face_b, b.region));
-    }
-    for (std::size_t m = 0; m < volumes.size(); ++m) {
-        imprint.parents[m].resize(volumes[m].model.faces.size() - before[m]);
-        for (const auto& [whole, made] : parts_of) {
-            if (whole.first != m) continue;
-            for (const FaceId part : made)
-                if (part.index() >= before[m]) imprint.parents[m][part.index() - before[m]] = whole.second;
-        }
     }
     return imprint;
 }
