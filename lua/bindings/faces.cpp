@@ -126,7 +126,7 @@ void append(lua_State* L, const Where& where, const topology::Model& model, std:
         for (const FaceId face : pick()) {
             any = true;
             // Both tags of a face that the file lists twice may be named.
-            const bool again = tag && topology::kept_of_two(model, *tag) &&
+            const bool again = tag && !model[face].repeated_tags.empty() &&
                                std::ranges::count(faces, face) > 0;
             if (!again) faces.push_back(face);
         }

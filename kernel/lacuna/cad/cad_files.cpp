@@ -143,9 +143,10 @@ void skip_commands(CadFiles& files, const Descriptor& script, const std::string&
     const auto with_line = [](const SkippedCommand& command) {
         return formatted("{} (line {})", command.word, command.line);
     };
-    files.notes.push_back({"cad.skipped_commands",
-                           "{}: only the geometry of the script is read. Skipped commands: {}", path,
-                           short_list(commands, with_line)});
+    files.notes.push_back(Message("cad.skipped_commands",
+                                  "{}: only the geometry of the script is read. Skipped commands: {}", path,
+                                  short_list(commands, with_line))
+                              .as_warning());
     write_at(script, text, 0, path);
 }
 

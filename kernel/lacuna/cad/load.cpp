@@ -64,7 +64,10 @@ void build_model(topology::ModelBuilder& model, LoadReply reply, double scale,
                  const std::shared_ptr<const CadSource>& source)
 {
     model.source = source->path();
-    for (MessageParts& note : reply.notes) model.notes.emplace_back(std::move(note));
+    for (std::size_t n = 0; n < reply.notes.size(); ++n) {
+        reply.notes[n].is_warning = n < reply.left_out.size();
+        model.notes.emplace_back(std::move(reply.notes[n]));
+    }
     model.points = std::move(reply.points);
     add_edges(model, reply, scale, source);
     for (LoadReply::Face& cad : reply.faces) {
@@ -94,15 +97,12 @@ io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOpti
 
     std::vector<std::vector<std::size_t>> solids;
     for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());
-    const auto left_out = static_cast<std::ptrdiff_t>(reply.left_out.size());
     topology::ModelBuilder model;
     build_model(model, std::move(reply), options.scale, source);
-    std::vector<Message> warnings(model.notes.begin(), model.notes.begin() + left_out);
-    warnings.insert(warnings.end(), files.notes.begin(), files.notes.end());
     model.notes.insert(model.notes.end(), files.notes.begin(), files.notes.end());
     model.tolerance = options.tolerance > 0 ? options.tolerance : kFileAccuracy * model.diagonal;
     healing::orient_groups(model, solids);
-    return {.model = std::move(model).finish(), .scale = options.scale, .warnings = std::move(warnings)};
+    return {.model = std::move(model).finish(), .scale = options.scale};
 }
 
 } // namespace

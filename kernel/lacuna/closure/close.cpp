@@ -525,7 +525,8 @@ void log_notes(const Closure& closure, const RunContext& context)
 {
     for (std::size_t n = 0; n < closure.notes.size(); ++n) {
         const Message& note = closure.notes[n];
-        const bool assumed = std::ranges::find(closure.assumptions, n) != closure.assumptions.end();
+        const bool assumed = std::ranges::find(closure.assumptions, n, &Assumption::note) !=
+                             closure.assumptions.end();
         log_line(context, assumed ? formatted("note: {} [{}]", note.text(), note.code()) : note.text());
     }
 }

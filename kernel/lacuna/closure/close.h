@@ -130,6 +130,12 @@ struct Along {
     std::optional<Profile> scale; ///< size of the section relative to the source, 1 at the source [-]
 };
 
+/// An assumption about missing faces that changes the volume by more than 2 % if it is wrong.
+struct Assumption {
+    std::size_t note;           ///< index in `Closure::notes`
+    bool only_straight = false; ///< assumes no more than that missing faces are flat or missing walls straight
+};
+
 /// The void entities added to seal the volume, and how they were made.
 struct Closure {
     topology::VolumeClass value = topology::VolumeClass::closed;
@@ -138,8 +144,8 @@ struct Closure {
     std::vector<std::string> algorithms; ///< names as in the paper, in the order used: "Algorithm 8",
                                          ///< "Algorithm 4", …
     bool watertight = false;
-    std::vector<Message> notes;           ///< assumptions and alternatives, one sentence each
-    std::vector<std::size_t> assumptions; ///< indices of the notes that change the volume by more than 2 %
+    std::vector<Message> notes; ///< assumptions and alternatives, one sentence each
+    std::vector<Assumption> assumptions;
 };
 
 /// A sealed volume, and how it was sealed. The given faces come first, then the void faces.

@@ -309,13 +309,13 @@ void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
     }
     if (flat.empty()) return;
     const double half_ball = 2 * std::numbers::pi / 3 * std::pow(largest, 3);
-    assume(closure,
-           Message("closure.flat_assumed",
-                   "flat faces are assumed in the circles beside {}: {}. Part of a ball, a cone or a ring "
-                   "can end in such a circle, too, and half a ball would change the volume by {:.2g} %",
-                   entities_of(model, beside), entities_of(model, flat), 100 * half_ball / enclosed)
-               .remedy("if a true face is not flat or has a hole, give it"),
-           1);
+    assume_straight(
+        closure, Message("closure.flat_assumed",
+                         "flat faces are assumed in the circles beside {}: {}. Part of a ball, a cone or a "
+                         "ring can end in such a circle, too, and half a ball would change the volume by "
+                         "{:.2g} %",
+                         entities_of(model, beside), entities_of(model, flat), 100 * half_ball / enclosed)
+                     .remedy("if a true face is not flat or has a hole, give it"));
 }
 
 /// Largest distance of the centroids of the other void faces from the mean plane of `face` [model length].
@@ -362,7 +362,13 @@ Message guess_of_hole(const Model& model, FaceId face)
 
 void assume(Closure& closure, Message note, double share)
 {
-    if (share > kVolumeNoted) closure.assumptions.push_back(closure.notes.size());
+    if (share > kVolumeNoted) closure.assumptions.push_back({closure.notes.size()});
+    closure.notes.push_back(std::move(note));
+}
+
+void assume_straight(Closure& closure, Message note)
+{
+    closure.assumptions.push_back({closure.notes.size(), true});
     closure.notes.push_back(std::move(note));
 }
 

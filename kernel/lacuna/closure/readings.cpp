@@ -163,15 +163,6 @@ std::optional<Closed> sealed_state(const Reading& reading)
     return std::nullopt;
 }
 
-/// Whether a closing assumes no more than that missing faces are flat or straight.
-bool assumes_straight_faces(const Closure& closure)
-{
-    return std::ranges::all_of(closure.assumptions, [&](std::size_t note) {
-        const std::string& code = closure.notes[note].code();
-        return code == "closure.flat_assumed" || code == "closure.straight_wall";
-    });
-}
-
 /// If a reading is ambiguous, or has a void face whose rim does not determine its shape, replace the reading
 /// by that of `read_filled()`, provided that the latter is unambiguous.
 void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& reading,
@@ -184,7 +175,8 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& 
                                    }));
     if (reading.holed.valid() || (!untold && !reading.guess)) return;
     auto told = read_filled(model, faces, context);
-    const bool is_sure = told && !told->guess && assumes_straight_faces(*told->closure);
+    const bool is_sure = told && !told->guess &&
+                         std::ranges::all_of(told->closure->assumptions, &Assumption::only_straight);
     // A reading without `guess` is one connected body. A filling with several parts must not replace it.
     if (is_sure &&
         (reading.guess || connected_parts(told->volume.model, all_faces(told->volume.model)).size() == 1))

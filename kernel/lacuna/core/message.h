@@ -36,6 +36,7 @@ struct MessageParts {
     std::string remedy;
     std::vector<NamedEntity> entities{}; ///< named in text and remedy, in order, each once
     std::vector<MessageValue> found{}, needed{};
+    bool is_warning = false; ///< a note that every user should see, not only one who asks for details
 };
 
 /// An argument of a message: a number, a text, an entity, a list of entities or another message.
@@ -153,6 +154,12 @@ public:
     {
         return Message(*this).remedy(format, arguments...);
     }
+    /// Mark a note as one that every user should see.
+    [[nodiscard]] Message as_warning() &&
+    {
+        parts_.is_warning = true;
+        return std::move(*this);
+    }
     /// Add the reason why an attempt failed. It is printed in brackets at the end of the text.
     [[nodiscard]] Message attempt(Message failed) const;
     /// The same message with the name of a part, file or member in front: "subject: text".
@@ -161,6 +168,7 @@ public:
     [[nodiscard]] const std::string& code() const { return parts_.code; }
     [[nodiscard]] std::string text() const;
     [[nodiscard]] const std::string& remedy() const { return parts_.remedy; }
+    [[nodiscard]] bool is_warning() const { return parts_.is_warning; }
     /// The entities named in text and remedy, in order, each once.
     [[nodiscard]] const std::vector<NamedEntity>& entities() const { return parts_.entities; }
     [[nodiscard]] const std::vector<MessageValue>& found() const { return parts_.found; }

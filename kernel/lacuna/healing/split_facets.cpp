@@ -108,13 +108,15 @@ Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature,
 Message note_on(const NoiseSmoothed& moved)
 {
     if (moved.most == 0)
-        return {"healing.noisy_facets",
-                "the facets are noisy, so faces are separated by the mean normals of patches"};
+        return Message("healing.noisy_facets",
+                       "the facets are noisy, so faces are separated by the mean normals of patches")
+            .as_warning();
     return Message(
                "healing.noisy_facets",
                "the facets are noisy and were smoothed: points moved by {:.3g} on average and {:.3g} at most",
                moved.mean, moved.most)
-        .remedy("load with keep_noise = true to leave them where they are");
+        .remedy("load with keep_noise = true to leave them where they are")
+        .as_warning();
 }
 
 bool is_plane(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)

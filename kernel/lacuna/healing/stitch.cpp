@@ -487,7 +487,8 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
                                     named(a), entity_of(model(), face_a), named(b),
                                     entity_of(model(), face_b),
                                     greatest_gap(track(a), track(b), tolerance_, context_))
-                                .remedy("to decide this yourself, give a tolerance"));
+                                .remedy("to decide this yourself, give a tolerance")
+                                .as_warning());
     std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
 }
 

@@ -41,7 +41,7 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
              "{0} lies on {1} everywhere: the face is listed twice, and naming {0} names {1}",
              entity_of(model, order[i]), entity_of(model, order[0])});
         ++report.faces_left_out;
-        loose.remove(order[i]);
+        loose.remove_repeated(order[i], order[0]);
     }
 }
 

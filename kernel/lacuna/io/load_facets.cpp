@@ -182,13 +182,14 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     FacetFile all;
     LoadedFiles loaded{.scale = options.scale};
     std::string source;
+    std::vector<Message> notes;
     std::vector<std::string> missing = options.without;
     for (const std::string& path : paths) {
         check_cancelled(context);
         source += (source.empty() ? "" : ", ") + path;
         auto deck = std::make_shared<Deck>(read_deck(path));
         for (const std::string& warning : deck->warnings)
-            loaded.warnings.push_back({"io.read_differently", "{}", warning});
+            notes.push_back(Message("io.read_differently", "{}", warning).as_warning());
         std::erase_if(missing, [&](const std::string& part) { return has_part(*deck, part); });
         std::vector<std::string> parts = options.without;
         std::erase_if(parts, [&](const std::string& part) { return !has_part(*deck, part); });
@@ -222,9 +223,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     name_faces(model, names, all);
     model.source = source;
     for (const std::string& note : all.notes) model.notes.push_back({"io.file_note", "{}", note});
-    model.notes.insert(model.notes.end(), loaded.warnings.begin(), loaded.warnings.end());
-    std::ranges::copy_if(model.notes, std::back_inserter(loaded.warnings),
-                         [](const Message& note) { return note.code() == "healing.noisy_facets"; });
+    move_in(model.notes, notes);
     loaded.model = std::move(model).finish();
     return loaded;
 }
@@ -244,18 +243,13 @@ void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& c
     const double share = options.tolerance > 0 ? 0 : healing::kSewnShare;
     healing::StitchReport report = healing::stitch(model, model.tolerance, context, share);
     if (report.changed()) log_line(context, report.summary());
-    std::ranges::copy_if(report.notes, std::back_inserter(loaded.warnings),
-                         [](const Message& note) { return note.code() == "healing.edges_sewn"; });
     if (!report.notes.empty()) {
         topology::ModelBuilder noted(std::move(model));
         move_in(noted.notes, report.notes);
         model = std::move(noted).finish();
     }
-    for (const Message& note : model.notes) {
-        const bool warns = std::ranges::find(loaded.warnings, note.code(), &Message::code) !=
-                           loaded.warnings.end();
-        log_line(context, warns ? "note: " + note.text() : note.text());
-    }
+    for (const Message& note : model.notes)
+        log_line(context, note.is_warning() ? "note: " + note.text() : note.text());
 }
 
 } // namespace
@@ -288,7 +282,6 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
         LoadedFiles more = import_facets(facets, options, context);
         loaded.decks = std::move(more.decks);
         loaded.unit = more.unit;
-        move_in(loaded.warnings, more.warnings);
         if (other.empty())
             loaded.model = std::move(more.model);
         else

@@ -104,9 +104,6 @@ struct LoadedFiles {
     std::vector<std::shared_ptr<const Deck>> decks{};
     double scale = 1;   ///< factor from the model's coordinates to the decks' [-]
     std::string unit{}; ///< declared unit of the lengths, from the options or a file; empty: none
-    /// Notes of the model that report content read differently from the file. They should be shown to every
-    /// user.
-    std::vector<Message> warnings{};
 };
 
 /// Formats of another reader, which reads all its files in one call.

@@ -60,6 +60,7 @@ struct Loop {
 /// Facets with a boundary. Facets of two faces that share an edge share the edge's points.
 struct Face {
     int tag = 0;                     ///< the tag that Gmsh shows for the same file
+    std::vector<int> repeated_tags;  ///< tags of equal faces that were left out
     std::string name;                ///< a physical group, part, element set; may be empty
     std::vector<std::string> groups; ///< all sets, surfaces and properties of the file that contain the face
     /// All names of the one or two regions beside the face: solids or, in files without solids, shells.
@@ -73,8 +74,7 @@ struct Face {
     std::vector<std::array<Vec2, 3>> uv; ///< surface parameters at the corners; empty without `surface`
     std::shared_ptr<const geometry::ExactSurface> surface; ///< null if only facets are known
     std::vector<Quad> given_quads; ///< the mesh that was given with the face, model points; may be empty
-    bool keeps_nodes = false;      ///< the face was given as a mesh: its quads and the nodes of its rim are
-                                   ///< kept
+    bool keeps_nodes = false;      ///< given as a mesh: its quads and the nodes of its rim are kept
 
     std::vector<Loop> loops; ///< derived from the triangles, see `with_loops()`; the longest first
 };

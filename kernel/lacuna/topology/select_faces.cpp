@@ -116,19 +116,12 @@ Vec3 mean_normal(const Model& model, FaceId face)
                                                               : Vec3(Vec3::Zero());
 }
 
-std::optional<int> kept_of_two(const Model& model, int tag)
-{
-    for (const Message& note : model.notes) {
-        if (note.code() != "healing.repeated_face") continue;
-        const auto kept = static_cast<int>(note.entities().back().tag);
-        if (kept == tag || note.entities().front().tag == tag) return kept;
-    }
-    return std::nullopt;
-}
-
 std::vector<FaceId> select(const Model& model, FaceSelector selector)
 {
-    const auto kept = [&](int& tag) { tag = kept_of_two(model, tag).value_or(tag); };
+    const auto kept = [&](int& tag) { // the tag of a repeated face names the face that was kept
+        for (const Face& face : model.faces)
+            if (std::ranges::count(face.repeated_tags, tag) > 0) tag = face.tag;
+    };
     if (selector.tags) std::ranges::for_each(*selector.tags, kept);
     if (selector.touching_tag) kept(*selector.touching_tag);
     std::vector<FaceId> faces;

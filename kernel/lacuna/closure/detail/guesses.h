@@ -37,6 +37,8 @@ Message guess_of_hole(const topology::Model& model, FaceId face);
 /// Add a note. If `share` exceeds 2 %, the note is also listed in `Closure::assumptions`.
 /// @param share  relative change of the volume if the assumption is wrong
 void assume(Closure& closure, Message note, double share);
+/// Note an assumption of `Assumption::only_straight`.
+void assume_straight(Closure& closure, Message note);
 
 /// Note an assumption about missing walls next to a missing end. The uncertain volume is that of a bulge of
 /// each missing wall by a quarter of its width, where the width is 4 area / perimeter.

@@ -61,6 +61,12 @@ public:
     /// Replace every use of `gone` by a use of `stays`.
     void merge(EdgeId gone, EdgeId stays);
     void remove(FaceId f);
+    /// Remove a face that is listed twice; its tag then names the face that stays.
+    void remove_repeated(FaceId gone, FaceId stays)
+    {
+        model_[stays].repeated_tags.push_back(model_[gone].tag);
+        remove(gone);
+    }
 
     /// The remaining model, renumbered, with loops.
     /// @throw InvalidInput  the facets are no longer a manifold surface.

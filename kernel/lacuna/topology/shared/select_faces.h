@@ -30,10 +30,6 @@ struct FaceSelector {
     std::string touching_name;
 };
 
-/// If the file lists a face twice, one of the two is dropped on loading. For the tag of a dropped face: the
-/// tag of the face that was kept. Empty for any other tag.
-std::optional<int> kept_of_two(const Model& model, int tag);
-
 /// The selected faces, in the model's order. A tag of a face that the file lists twice selects the face that
 /// was kept.
 /// @throw InvalidInput "lua.other_model", "lua.no_face"  `touching` names no face of the model.
