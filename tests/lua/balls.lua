@@ -51,4 +51,39 @@ for _, name in ipairs(names) do
   end
 end
 
+-- The parameters of a sphere that the poles bound may end a rounding error beyond them, where normals point
+-- inward: facets there are as large as elsewhere, and lie along the sphere.
+do
+  local file = params.scratch .. "/capsule"
+  check.write(file .. ".geo", [[
+SetFactory("OpenCASCADE");
+Cylinder(1) = {-60, 0, 0, 120, 0, 0, 40};
+Sphere(2) = {-60, 0, 0, 40};
+Sphere(3) = {60, 0, 0, 40};
+BooleanUnion{ Volume{1}; Delete; }{ Volume{2, 3}; Delete; }
+]])
+  lacuna.load(file .. ".geo"):open_volume():write_cad(file .. ".step")
+  lacuna.load(file .. ".step"):open_volume():write_facets(file .. ".obj")
+  local points, facets = {}, 0
+  for line in io.lines(file .. ".obj") do
+    local x, y, z = line:match "^v (%S+) (%S+) (%S+)"
+    if x then points[#points + 1] = { tonumber(x), tonumber(y), tonumber(z) } end
+    local a, b, c = line:match "^f (%d+)%S* (%d+)%S* (%d+)"
+    if a then
+      local p, q, r = points[tonumber(a)], points[tonumber(b)], points[tonumber(c)]
+      local u, v, out = {}, {}, {}
+      for k = 1, 3 do u[k], v[k], out[k] = q[k] - p[k], r[k] - p[k], p[k] + q[k] + r[k] end
+      out[1] = out[1] > 180 and out[1] - 180 or out[1] < -180 and out[1] + 180 or 0
+      local n = { u[2] * v[3] - u[3] * v[2], u[3] * v[1] - u[1] * v[3], u[1] * v[2] - u[2] * v[1] }
+      local along, length, radius = 0, 0, 0
+      for k = 1, 3 do
+        along, length, radius = along + n[k] * out[k], length + n[k] ^ 2, radius + out[k] ^ 2
+      end
+      check.that(along > 0.9 * math.sqrt(length * radius), line)
+      facets = facets + 1
+    end
+  end
+  check.that(facets > 500 and facets < 5000, facets)
+end
+
 check.done()

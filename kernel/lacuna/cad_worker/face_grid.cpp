@@ -48,9 +48,15 @@ Lattice sample(int tag, const ParameterBox& box, std::size_t sides)
     return lattice;
 }
 
-/// Angle between the normals of two frames; zero if a frame is at a pole.
+/// Angle between the normals of two frames; zero if a frame is at a pole. The rectangle may reach beyond a
+/// pole by a rounding error, and the normal is reversed there.
 double turn_between(const SurfaceFrame& a, const SurfaceFrame& b)
 {
+    const auto vanishes = [](const Vec3& at_a, const Vec3& at_b) {
+        const double la = at_a.norm(), lb = at_b.norm();
+        return !(std::min(la, lb) > kVisible * std::max(la, lb));
+    };
+    if (vanishes(a.du, b.du) || vanishes(a.dv, b.dv)) return 0;
     const Vec3 na = a.du.cross(a.dv);
     const Vec3 nb = b.du.cross(b.dv);
     const double floor_a = kSamePlace * a.du.norm() * a.dv.norm();
