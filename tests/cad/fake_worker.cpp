@@ -23,7 +23,7 @@ LoadReply triangle()
     reply.vertex_tags = {1, 2, 3};
     for (int k = 0; k < 3; ++k)
         reply.edges.push_back({k + 1, k + 1, k, (k + 1) % 3, {0, 1}, {k, (k + 1) % 3}});
-    reply.faces.push_back({1, "face", "plane", {{0, 1, 2}}, {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}}});
+    reply.faces.push_back({1, "face", "", "plane", {{0, 1, 2}}, {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}}});
     reply.solids = {{0}};
     return reply;
 }

@@ -119,4 +119,32 @@ end
 for _, part in ipairs { "", "foam\0x" } do
   check.fails(function() lacuna.load(params.scratch .. "/signs.vtu", { without = part }) end, "without")
 end
+-- Solids of STEP files give their names to their faces, after the roles; default labels do not.
+if lacuna.gmsh_version ~= "none" then
+  local files = { named = {}, plain = {} }
+  for i, part in ipairs { { "carton", "0, 0, 0, 60, 60, 40" }, { "phone", "20, 20, 0, 20, 20, 10" } } do
+    local name, box = table.unpack(part)
+    local path = params.scratch .. "/" .. name
+    check.write(path .. ".geo", 'SetFactory("OpenCASCADE"); Box(1) = {' .. box .. "};")
+    lacuna.load(path .. ".geo"):open_volume():write_cad(path .. "_plain.step")
+    local file <close> = assert(io.open(path .. "_plain.step"))
+    local text, count = file:read("a"):gsub("PRODUCT%(%s*'[^']*',%s*'[^']*'",
+      ("PRODUCT('%s','%s'"):format(name, name))
+    check.equal(count, 1)
+    check.write(path .. "_named.step", text)
+    for kind, list in pairs(files) do list[i] = path .. "_" .. kind .. ".step" end
+  end
+  check.equal(#lacuna.load(files.plain):faces { name = "phone" }, 0)
+  local parts = lacuna.load(files.named)
+  check.equal(#parts:faces "phone", 6)
+  check.equal(#parts:faces { region = "carton" }, 6)
+  local mesh = parts:open_volume({ name = "foam" }):sweep { size = 10 }
+  local quads = {}
+  for _, group in ipairs(mesh:groups()) do quads[group.name] = group.cells end
+  check.that(quads.phone > 0 and quads.carton > 0 and quads.source > 0 and quads.target > 0)
+  mesh:write(params.scratch .. "/foam.msh")
+  local one = lacuna.load(params.scratch .. "/foam.msh")
+  check.that(#one:faces "source" > 0 and #one:faces { name = "phone" } == 0)
+end
+
 check.done()

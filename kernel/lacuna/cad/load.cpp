@@ -73,7 +73,11 @@ void build_model(topology::ModelBuilder& model, LoadReply reply, double scale,
     for (LoadReply::Face& cad : reply.faces) {
         topology::Face face;
         face.tag = cad.tag;
-        face.name = std::move(cad.name);
+        face.name = cad.name.empty() ? cad.solid : cad.name;
+        if (!cad.solid.empty()) {
+            if (!cad.name.empty()) face.groups = {std::move(cad.name)}; // it is the face's own name
+            face.regions = {{std::move(cad.solid)}};
+        }
         face.kind = std::move(cad.kind);
         face.triangles = std::move(cad.triangles);
         face.uv = std::move(cad.uv);

@@ -60,6 +60,17 @@ double diagonal_of_model()
     return (Vec3(x1, y1, z1) - Vec3(x0, y0, z0)).norm();
 }
 
+/// The label of an entity in the file, without those that CAD systems give by default.
+std::string label_of(int dimension, int tag)
+{
+    // Gmsh names a face of a product "Shapes/assembly/part/face".
+    std::string name;
+    gmsh::model::getEntityName(dimension, tag, name);
+    name.erase(0, name.find_last_of('/') + 1);
+    return is_default_label(name) ? std::string() : name;
+}
+
+/// The name of a face's physical group, else its own.
 std::string name_of_face(int tag)
 {
     std::vector<int> groups;
@@ -69,11 +80,16 @@ std::string name_of_face(int tag)
         gmsh::model::getPhysicalName(2, std::abs(group), name);
         if (!name.empty()) return name;
     }
-    // Gmsh names a face of a product "Shapes/assembly/part/face".
-    std::string name;
-    gmsh::model::getEntityName(2, tag, name);
-    name.erase(0, name.find_last_of('/') + 1);
-    return is_default_label(name) ? std::string() : name;
+    return label_of(2, tag);
+}
+
+/// The name of the solid that a face bounds alone; empty in a model of one solid, where it tells no face from
+/// another.
+std::string name_of_solid(int tag)
+{
+    std::vector<int> solids, curves;
+    gmsh::model::getAdjacencies(2, tag, solids, curves);
+    return solids.size() == 1 && tags_of(3).size() > 1 ? label_of(3, solids.front()) : std::string();
 }
 
 struct Cut {
@@ -248,8 +264,8 @@ cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, const LeftOut& go
         CadFacets& facets = cut.faces[f];
         const int tag = wire.faces[f].tag;
         source.boxes[tag] = facets.box;
-        reply.faces.push_back({tag, name_of_face(tag), std::move(facets.kind), std::move(facets.triangles),
-                               std::move(facets.uv)});
+        reply.faces.push_back({tag, name_of_face(tag), name_of_solid(tag), std::move(facets.kind),
+                               std::move(facets.triangles), std::move(facets.uv)});
         reply.points.insert(reply.points.end(), facets.added.begin(), facets.added.end());
     }
     reply.solids = solids(wire);

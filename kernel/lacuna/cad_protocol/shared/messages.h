@@ -91,7 +91,9 @@ struct LoadReply {
     };
     struct Face {
         std::int32_t tag = 0;
-        std::string name, kind;
+        std::string name;
+        std::string solid; ///< name of the only solid that the face bounds; empty: none, or several
+        std::string kind;
         std::vector<Triangle> triangles;
         std::vector<std::array<Vec2, 3>> uv;
     };
