@@ -317,4 +317,24 @@ do
   check.equal(left, "", "left behind")
 end
 
+-- The three mouths of a tee are three patches, although two of them are one end.
+if lacuna.gmsh_version ~= "none" then
+  local path = params.scratch .. "/tee.geo"
+  local geo <close> = assert(io.open(path, "w"))
+  geo:write [[
+SetFactory("OpenCASCADE");
+Cylinder(1) = {-60, 0, 0, 120, 0, 0, 20};
+Cylinder(2) = {0, 0, 0, 0, 0, 60, 14};
+BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+]]
+  geo:close()
+  local tee = lacuna.load(path)
+  tee:open_volume({ faces = { kind = "cylinder" } }):sweep({ size = 6 }):write(case)
+  local areas = {}
+  for name in pairs(checked(case, "tee").patches) do
+    if not name:find "^wall" then areas[#areas + 1] = name end
+  end
+  check.equal(#areas, 3, table.concat(areas, " "))
+end
+
 check.done()

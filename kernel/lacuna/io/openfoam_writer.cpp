@@ -9,6 +9,7 @@
 #include <lacuna/io/detail/sections.h>
 #include <lacuna/io/detail/texts.h>
 #include <lacuna/io/detail/whole_folder.h>
+#include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <array>
@@ -204,18 +205,42 @@ private:
                                       inside));
     }
 
-    /// Make a patch of the faces of each group.
+    /// The first groups that entities with different groups have in common.
+    std::set<std::string> shared_groups() const
+    {
+        std::map<std::string, const MeshView::Entity*> known;
+        std::set<std::string> shared;
+        for (const auto& [number, own] : of_entity_) {
+            if (number < 0) continue;
+            const MeshView::Entity& entity = view_.entities[index(number)];
+            const std::string first = group_of(entity, kNoGroup);
+            if (known.try_emplace(first, &entity).first->second->groups != entity.groups)
+                shared.insert(first);
+        }
+        return shared;
+    }
+
+    /// The patch of an entity's faces: its first group. If other entities, with other groups, have the same
+    /// first group, a void face is a patch of its own: an inlet and an outlet may both be in `target`.
+    static std::string patch_of(const MeshView::Entity& entity, const std::set<std::string>& shared)
+    {
+        const std::string first = group_of(entity, kNoGroup);
+        const auto own = std::ranges::find_if(entity.groups, topology::is_void_group);
+        return shared.contains(first) && own != entity.groups.end() ? *own : first;
+    }
+
+    /// Make the patches. Faces without a group come last.
     void find_patches()
     {
-        // Entities of the same group form one patch. Faces without a group come last.
         std::vector<std::pair<std::string, std::vector<Index>>> groups;
+        const std::set<std::string> shared = shared_groups();
         const auto add = [&](const std::string& name, const std::vector<Index>& own) {
             auto group = std::ranges::find(groups, name, &std::pair<std::string, std::vector<Index>>::first);
             if (group == groups.end()) group = groups.insert(group, {name, {}});
             group->second.insert(group->second.end(), own.begin(), own.end());
         };
         for (const auto& [entity, own] : of_entity_)
-            if (entity >= 0) add(group_of(view_.entities[index(entity)], kNoGroup), own);
+            if (entity >= 0) add(patch_of(view_.entities[index(entity)], shared), own);
         if (of_entity_.contains(-1)) add(kNoGroup, of_entity_[-1]);
         Words words;
         for (auto& [name, own] : groups) {

@@ -84,6 +84,11 @@ std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume)
     return groups;
 }
 
+bool is_void_group(std::string_view group)
+{
+    return group.starts_with("void:") || group.find(":void:") != std::string_view::npos;
+}
+
 bool is_role_group(std::string_view group)
 {
     const std::string word = lower(std::string(group));

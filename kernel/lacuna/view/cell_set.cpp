@@ -8,22 +8,14 @@
 #include <lacuna/quality/shared/metrics.h>
 #include <lacuna/quality/shared/second_order.h>
 
+#include <lacuna/topology/shared/skin_groups.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <unordered_map>
 
 namespace lacuna::view {
-
-namespace {
-
-/// Whether a group belongs to a void face: `void:3`, or `fluid:void:3` in an assembly.
-bool is_of_void(const std::string& group)
-{
-    return group.starts_with("void:") || group.find(":void:") != std::string::npos;
-}
-
-} // namespace
 
 std::string counted(std::size_t count, const std::string& what)
 {
@@ -34,7 +26,7 @@ std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh)
 {
     std::vector<ShownPatch> shown;
     for (const mesh::SkinPatch& patch : mesh.patches) {
-        const bool named_void = std::ranges::any_of(patch.groups, is_of_void);
+        const bool named_void = std::ranges::any_of(patch.groups, topology::is_void_group);
         shown.push_back({patch.tag, patch.groups, patch.face == 0 && named_void, 0});
     }
     for (const std::vector<Index>* list : {&mesh.source_patch, &mesh.target_patch, &mesh.wall_patch})
@@ -127,7 +119,7 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
                     if (std::ranges::find(groups, name) == groups.end()) groups.push_back(name);
             const auto [at, fresh] = of_groups.try_emplace(groups, static_cast<Index>(found.patches.size()));
             if (fresh) {
-                const bool made_void = std::ranges::any_of(groups, is_of_void);
+                const bool made_void = std::ranges::any_of(groups, topology::is_void_group);
                 found.patches.push_back({static_cast<int>(found.patches.size()) + 1, groups, made_void, 0});
             }
             ++found.patches[index(at->second)].quads;

@@ -23,6 +23,9 @@ namespace lacuna::topology {
 /// boundary conditions stay on their faces. Case is ignored, as in Abaqus.
 std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume);
 
+/// Whether a group belongs to a void face: `void:3`, or `fluid:void:3` in an assembly.
+bool is_void_group(std::string_view group);
+
 /// Whether a group is a role group: `source`, `target`, `wall:12` or `void:12`, in any case.
 bool is_role_group(std::string_view group);
 
