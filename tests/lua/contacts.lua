@@ -384,6 +384,31 @@ check.fails(function()
     contacts = { pairs = { { a = "a", b = "b", name = "x" }, { a = "a", b = "c", name = "x" } } } }
 end, "two pairs", "x")
 
+-- A gap narrower than what sides cut off the arcs is noted: the meshes may overlap before any load.
+if lacuna.gmsh_version ~= "none" then
+  check.write(at "fit.lua", [[
+local lacuna = require "lacuna"
+local curvature = lacuna.params { curvature = 12 }.curvature
+local function body(name, text)
+  local geo <close> = assert(io.open(name .. ".geo", "w"))
+  geo:write('SetFactory("OpenCASCADE");' .. text)
+  geo:close()
+  return lacuna.load(name .. ".geo"):open_volume { name = name, glued = false }
+end
+local plate = body("plate", "Box(1) = {-40, -40, 0, 80, 80, 10}; Cylinder(2) = {0, 0, -1, 0, 0, 12, 10.05};"
+  .. "BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }")
+local pin = body("pin", "Cylinder(1) = {0, 0, -10, 0, 0, 30, 10};")
+local mesh = lacuna.assembly { plate, pin }:sweep { size = 6, curvature = curvature,
+  contacts = { gap = 0.06, type = "contact" } }
+assert(#mesh.contacts == 1)
+]])
+  for curvature, noted in pairs { [12] = true, [100] = false } do
+    local code, _, log = check.run(params.lacuna, params.scratch, { "fit.lua", "curvature=" .. curvature })
+    check.equal(code, 0, log)
+    check.equal(log:find("contact plate_pin: the faces come within 0.0", 1, true) ~= nil, noted, log)
+  end
+end
+
 -- --- CalculiX --------------------------------------------------------------------------------------------
 
 if params.ccx == "" then

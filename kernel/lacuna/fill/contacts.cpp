@@ -54,26 +54,26 @@ void check_regions(std::span<const AssemblyMember> members, const ContactRequest
 struct SkinOf {
     std::vector<mesh::SkinPatch>* patches;
     const std::vector<FaceId>* faces;
+    const sweep::Fidelity* fidelity;
     std::vector<std::size_t> sides; ///< number of skin sides, by patch
-    double off = 0;                 ///< largest distance from the sealed skin
 };
 
 std::vector<SkinOf> skins_of(FilledParts& mesh, std::size_t member)
 {
     std::vector<SkinOf> skins;
-    const auto add = [&](auto& part, const std::vector<FaceId>& faces, double off, std::size_t sides,
-                         const auto& patch) {
-        SkinOf& skin = skins.emplace_back(SkinOf{&part.patches, &faces, {}, off});
+    const auto add = [&](auto& part, const std::vector<FaceId>& faces, const sweep::Fidelity& fidelity,
+                         std::size_t sides, const auto& patch) {
+        SkinOf& skin = skins.emplace_back(SkinOf{&part.patches, &faces, &fidelity, {}});
         skin.sides.resize(part.patches.size());
         for (std::size_t i = 0; i < sides; ++i) ++skin.sides[index(patch(i))];
     };
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p)
         if (sweep::Swept& own = mesh.swept.parts[p]; mesh.swept.member[p] == member)
-            add(own.mesh, own.faces, own.fidelity.max_distance, own.mesh.skin_count(),
+            add(own.mesh, own.faces, own.fidelity, own.mesh.skin_count(),
                 [&](std::size_t i) { return mesh::skin_quad(own.mesh, i).patch; });
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
         if (FilledTets& own = mesh.tets[t]; mesh.swept.unswept[t].member == member)
-            add(own.mesh, own.faces, own.fidelity.max_distance, own.mesh.skin.size(),
+            add(own.mesh, own.faces, own.fidelity, own.mesh.skin.size(),
                 [&](std::size_t i) { return own.mesh.skin_patch[i]; });
     return skins;
 }
@@ -191,12 +191,14 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
     return without_faces(find_contacts(members, request, context));
 }
 
-void add_contact(FilledParts& mesh, std::span<const AssemblyMember> members, const FoundContact& found)
+void add_contact(FilledParts& mesh, std::span<const AssemblyMember> members, const FoundContact& found,
+                 const RunContext& context)
 {
     struct Side {
         std::set<mesh::SkinPatch*> patches;
         std::set<std::pair<std::size_t, FaceId>> faces;
-        double area = 0, off = 0;
+        double area = 0;
+        double off = 0, off_in_contact = 0; ///< largest distance of the mesh from any face; from these faces
         std::size_t count = 0;
     };
     std::array<Side, 2> sides;
@@ -214,7 +216,10 @@ void add_contact(FilledParts& mesh, std::span<const AssemblyMember> members, con
             const auto [known, fresh] = skins.try_emplace(member);
             if (fresh) known->second = skins_of(mesh, member);
             for (const SkinOf& skin : known->second) {
-                side.off = std::max(side.off, skin.off);
+                side.off = std::max(side.off, skin.fidelity->max_distance);
+                for (const sweep::FaceFidelity& of : skin.fidelity->faces)
+                    if (of.face == own && of.quads > 0)
+                        side.off_in_contact = std::max(side.off_in_contact, of.max_distance);
                 for (const std::size_t p : patches_on(skin, own, model.faces.size()))
                     if (side.patches.insert(&(*skin.patches)[p]).second) side.count += skin.sides[p];
             }
@@ -233,6 +238,14 @@ void add_contact(FilledParts& mesh, std::span<const AssemblyMember> members, con
                                           contact.pair.tied ? "tie" : "contact", contact.pair.name,
                                           sides[slave].count, contact.regions[slave], sides[1 - slave].count,
                                           contact.regions[1 - slave], contact.width));
+    const double off = a.off_in_contact + b.off_in_contact;
+    if (!contact.pair.tied && off > std::max(contact.least, tolerance))
+        log_line(
+            context,
+            formatted("note: contact {}: the faces come within {:.3g} of each other, but their meshes are "
+                      "up to {:.3g} beside them, so the meshes may overlap before any load; give a "
+                      "smaller 'size' or a larger 'curvature'",
+                      contact.pair.name, contact.least, off));
     mesh.contacts.push_back(std::move(contact));
 }
 

@@ -505,7 +505,7 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
     }
     for (const Part& one : all)
         if (one.asked != nullptr && !one.left_out) report_left_out(one.volume, mesh.swept.report);
-    for (const FoundContact& contact : found) add_contact(mesh, members, contact);
+    for (const FoundContact& contact : found) add_contact(mesh, members, contact, context);
     return mesh;
 }
 

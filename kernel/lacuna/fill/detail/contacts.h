@@ -21,9 +21,9 @@ std::vector<FoundContact> find_contacts(std::span<const sweep::AssemblyMember> m
 std::vector<Contact> without_faces(std::vector<FoundContact> found);
 
 /// Add a contact and the groups of its faces to a mesh. Nothing is added if the volumes on one side of the
-/// contact were left out of the mesh.
-void add_contact(FilledParts& mesh, std::span<const sweep::AssemblyMember> members,
-                 const FoundContact& found);
+/// contact were left out of the mesh. A note is logged if the two meshes may overlap.
+void add_contact(FilledParts& mesh, std::span<const sweep::AssemblyMember> members, const FoundContact& found,
+                 const RunContext& context);
 
 /// Add a mesh that shares no nodes with the whole.
 void append(FilledParts& whole, FilledParts part);
