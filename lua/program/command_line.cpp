@@ -51,7 +51,7 @@ exit codes: 0 done, 1 the recipe failed, 2 bad usage, 130 interrupted, 143 termi
 struct Command {
     const char* name;
     const char* files;  ///< names of the files, in capitals
-    std::size_t count;  ///< number of files
+    std::size_t count;  ///< number of files, or least number of a command that takes words
     const char* option; ///< the command's own option; null: none
     bool words;         ///< whether key=value words may follow
     const char* summary;
@@ -91,14 +91,15 @@ Reads a mesh, %READ, and writes it in the
 format given by the extension of OUT: %WRITTEN. Nodes, elements, their numbers,
 regions and sets are kept. Data that the format cannot store is listed on standard error.
 )"},
-    {"fill", "IN OUT", 2, nullptr, true, "fill the void of a file and write the mesh",
+    {"fill", "IN... OUT", 2, nullptr, true, "fill the void between faces of files and write the mesh",
      R"(
-Reads CAD, facets or a finite element mesh, finds the void, fills it with hexahedra and writes the mesh in the
-format given by the extension of OUT: %WRITTEN. Then it prints the
-quality of the mesh. The words are the options of lacuna.load, open_volume, sweep and mesh:write:
+Reads CAD, facets or finite element meshes, fills the void between their faces with hexahedra and writes the
+mesh in the format given by the extension of OUT: %WRITTEN. Then
+it prints the quality. The words are the options of lacuna.load, open_volume, sweep and mesh:write:
 
   lacuna fill housing.step resin.inp source=16 walls=auto size=2 name=resin
-  lacuna fill pipe.stl case/constant/polyMesh size=2
+  lacuna fill product.step box.step foam.vtu size=4 fallback=mixed
+  lacuna fill pipe.stl case/constant/polyMesh faces=2 size=2
   lacuna fill old.inp new.inp source=FLOOR walls=auto with=true
 
 Without source, target, walls and faces all faces bound the void. `lacuna info IN` and `lacuna view IN` show
@@ -243,7 +244,6 @@ void read_command(const Command& command, Words& words, CommandLine& line)
     line.action = Action::command;
     line.command = command.name;
     bool limits = false;
-    std::size_t parameters = 0;
     while (!words.empty()) {
         const std::string& word = words.take();
         if (word == "--help" || word == "-h") {
@@ -255,8 +255,6 @@ void read_command(const Command& command, Words& words, CommandLine& line)
         else if (word.size() > 1 && word[0] == '-' && !read_flag(word, words, line, limits))
             throw BadUsage(formatted("{0} has no option {1}; `lacuna {0} --help` lists its options",
                                      command.name, word));
-        else if (command.words && line.words.size() >= command.count && is_parameter(word))
-            line.words.push_back(word), ++parameters;
         else if (word[0] != '-' || word == "-")
             line.words.push_back(word);
     }
@@ -265,7 +263,7 @@ void read_command(const Command& command, Words& words, CommandLine& line)
     const std::string wants = formatted("{} needs {}, {}", command.name,
                                         command.count == 1 ? "a file" : "two files", command.files);
     if (line.words.size() < command.count) throw BadUsage(wants);
-    if (line.words.size() > command.count + parameters)
+    if (!command.words && line.words.size() > command.count)
         throw BadUsage(formatted("{}; found {} too", wants, line.words.back()));
 }
 

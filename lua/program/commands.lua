@@ -143,15 +143,17 @@ end
 
 function commands.fill(...)
   local options = { load = {}, open_volume = {}, sweep = {}, write = {} }
+  local files = { first, second }
   for _, word in ipairs { ... } do
-    local key, text = word:match "^([^=]*)=(.*)$"
-    options[call_of(key)][key] = value_of(key, text)
+    local key, text = word:match "^([%a_][%w_]*)=(.*)$"
+    if key then options[call_of(key)][key] = value_of(key, text) else files[#files + 1] = word end
   end
-  local model = lacuna.load(first, options.load)
+  local output = table.remove(files)
+  local model = lacuna.load(files, options.load)
   if options.write.with == true then options.write.with = model end
   local volume = model:open_volume(next(options.open_volume) and options.open_volume or nil)
   local mesh = volume:sweep(options.sweep)
-  mesh:write(second, options.write)
+  mesh:write(output, options.write)
   print(mesh:quality())
 end
 

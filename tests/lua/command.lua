@@ -290,7 +290,13 @@ expect({ "fill", "good.msh", "case/constant/polyMesh", "size=0.5", "keep_mesh=fa
 check.that(check.exists(folder .. "/case/constant/polyMesh/owner"))
 expect({ "fill", "good.msh", "again.vtu", "siez=0.5" }, 1, {}, { "siez", "size" })
 expect({ "fill", "good.msh", "again.vtu", "layers={3" }, 1, {}, { "layers={3" })
-expect({ "fill", "good.msh" }, 2, {}, { "IN OUT" })
+expect({ "fill", "good.msh" }, 2, {}, { "IN... OUT" })
+-- Several files bound one void: a tube inside another one.
+for name, radius in pairs { inner = 1, outer = 2 } do
+  local tube = lacuna.synthetic.prism { sides = 32, radius = radius, height = 4 }
+  tube:open_volume():write_facets(folder .. "/" .. name .. ".stl")
+end
+expect({ "fill", "inner.stl", "outer.stl", "gap.vtu", "size=0.5" }, 0, { "hexahedra" }, nil)
 -- Every option of the calls behind `fill` goes to its call, which is the one that refuses a bad value.
 local here = arg[0]:match("^(.*/)")
 local api = assert(io.open(here .. "../../lua/lacuna.d.lua")):read "a"
