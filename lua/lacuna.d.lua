@@ -366,7 +366,7 @@
 ---@field diagonal number [model length]
 local Model = {}
 --- The faces that the selector selects; without one, all faces.
----@param selector? lacuna.Selector
+---@param selector? lacuna.Selector|string|integer
 ---@return lacuna.Face[]
 function Model:faces(selector) end
 --- The one face that `which` selects. If it selects none or several, the error lists the candidates.

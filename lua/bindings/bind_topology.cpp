@@ -105,15 +105,19 @@ int add_face(lua_State* L)
     return 1;
 }
 
-/// faces = model:faces([selector])
+/// faces = model:faces([selector | tag | name])
 int faces(lua_State* L)
 {
     lua_settop(L, 2);
     const Box<ModelState>& state = hold_model(L, 1);
     auto& selector = temporary<Selector>(L);
-    read_selector(L, 2, "faces", selector);
     auto& found = temporary<std::vector<FaceId>>(L);
-    guard(L, [&] { found = topology::select(state->model, selector); });
+    if (lua_isnoneornil(L, 2) || lua_istable(L, 2)) {
+        read_selector(L, 2, "faces", selector);
+        guard(L, [&] { found = topology::select(state->model, selector); });
+    } else {
+        read_faces(L, 2, {"faces", nullptr}, state, found);
+    }
     push_array(L, found, [&](const auto& item) { push_face(L, state, item); });
     if (found.empty() && lua_istable(L, 2)) mark_found_nothing(L, 2);
     return 1;

@@ -165,10 +165,8 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
 const char* push_why_missing(lua_State* L, const topology::Model& model, int tag)
 {
     push_text(L, [&] {
-        constexpr std::string_view kLeftOut[] = {"cad.face_not_cut", "cad.narrow_face", "healing.thin_face"};
         const auto note = std::ranges::find_if(model.notes, [&](const Message& of) {
-            return std::ranges::find(kLeftOut, of.code()) != std::end(kLeftOut) && !of.entities().empty() &&
-                   of.entities().front().tag == tag;
+            return !of.entities().empty() && of.entities().front() == NamedEntity{"face", tag};
         });
         return note == model.notes.end() ? std::string("is not there") : "was not read: " + note->text();
     });

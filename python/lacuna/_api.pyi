@@ -139,8 +139,8 @@ class Model(Shown):
     @property
     def diagonal(self) -> float: ...
     def faces(
-            self, selector: Mapping[str, Any] | None = None, /, *, tags: int | Iterable[int] | None = ...,
-            name: str | None = ...,
+            self, selector: Mapping[str, Any] | str | int | None = None, /, *,
+            tags: int | Iterable[int] | None = ..., name: str | None = ...,
             kind: Literal["plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"] | None = ...,
             facing: Vector | None = ..., normal_within: float | None = ..., near: Vector | None = ...,
             within: float | None = ..., box: Sequence[Vector] | None = ...,

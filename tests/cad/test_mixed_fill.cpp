@@ -112,7 +112,7 @@ TEST_CASE(
 TEST_CASE("a refused sweep ends with the option that allows tetrahedra, if the host has a mesher for them")
 {
     fill::Request request = mixed(0.2);
-    const std::string option = "try fallback = \"mixed\"";
+    const std::string option = "sweep with fallback = \"mixed\"";
     for (const sweep::Fallback fallback : {sweep::Fallback::none, sweep::Fallback::wedges}) {
         request.sweep.options.fallback = fallback;
         CHECK(refusal([&] { (void)fill::fill(pyramid(), request); }, {option}) == "topology.no_roles");

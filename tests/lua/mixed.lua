@@ -161,11 +161,11 @@ pyramid[10] = {}
 for k = 1, 9 do pyramid[10][k] = base[10 - k] end
 do
   local volume = solid(pyramid):open_volume {}
-  local remedy = 'or try fallback = "mixed" [topology.no_roles]'
+  local remedy = 'or sweep with fallback = "mixed" [topology.no_roles]'
   check.fails(function() volume:sweep {} end, remedy)
   check.fails(function() volume:sweep { fallback = "wedges" } end, remedy)
   check.fails(function() lacuna.assembly { volume }:sweep {} end, remedy)
-  check.fails(function() volume:sweep_to(path("a.msh"), {}) end, 'or try sweep with fallback = "mixed"')
+  check.fails(function() volume:sweep_to(path("a.msh"), {}) end, 'or sweep with fallback = "mixed"')
   local roles = { source = "f1", target = "f2", walls = { "f3", "f4" } }
   check.fails(function() solid(corner):open_volume(roles) end, "topology.ends_share_edge", "mixed")
   for _, object in ipairs { volume, lacuna.assembly { volume } } do
@@ -282,7 +282,7 @@ do
   for k = 1, 4 do faces[k + 1] = { low[k], low[k % 4 + 1], top } end
   local roof = solid(faces):open_volume { name = "roof" }
   local assembly = lacuna.assembly { base, roof }
-  check.fails(function() assembly:sweep { size = 0.25 } end, 'try fallback = "mixed"')
+  check.fails(function() assembly:sweep { size = 0.25 } end, 'sweep with fallback = "mixed"')
   local mesh = assembly:sweep { size = 0.25, fallback = "mixed" }
   check_mesh(mesh, 1 + 0.8 / 3)
   check.equal(mesh.hexes, 64)

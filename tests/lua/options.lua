@@ -51,7 +51,7 @@ for name, entry in pairs(calls) do
         "must be", "a thread")
   end
   check.fails(function() call { 7 } end, name .. ":", "7", "without a name")
-  check.fails(function() call(7) end, name .. ":", "found 7")
+  check.fails(function() call(true) end, name .. ":", "found true")
 end
 
 -- Values that are of the right type and still wrong.

@@ -111,7 +111,11 @@ void Session::fail(const std::string& message) const
     }
     if (words.empty()) words = "it gave no reason";
     if (words.starts_with("Out of memory")) throw std::bad_alloc(); // Gmsh's allocator reports this as text
-    refuse(Message("cad.gmsh", "Gmsh failed: {}", words));
+    const Message why("cad.gmsh", "Gmsh failed: {}", words);
+    // A script that numbers its entities by hand, after a file whose entities have these numbers.
+    refuse(words.ends_with("already exists")
+               ? why.remedy("name the script first, or number by newv, news … in it")
+               : why);
 }
 
 void Session::refuse(const Message& message) const

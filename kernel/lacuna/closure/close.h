@@ -133,7 +133,7 @@ struct Along {
 /// An assumption about missing faces that changes the volume by more than 2 % if it is wrong.
 struct Assumption {
     std::size_t note;           ///< index in `Closure::notes`
-    bool only_straight = false; ///< assumes no more than that missing faces are flat or missing walls straight
+    bool only_straight = false; ///< assumes only flat missing faces or straight missing walls
 };
 
 /// The void entities added to seal the volume, and how they were made.

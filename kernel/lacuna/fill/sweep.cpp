@@ -378,8 +378,8 @@ Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& optio
     if (why.code() == "quality.below_limit")
         return why.remedy().empty() ? why.remedy("change 'size' or 'layers', or lower 'min_scaled_jacobian'")
                                     : why;
-    return why.remedy("{}try {}fallback = \"mixed\"", why.remedy().empty() ? "" : why.remedy() + ", or ",
-                      options.layered ? "sweep with " : "");
+    return why.remedy("{}sweep with fallback = \"mixed\"",
+                      why.remedy().empty() ? "" : why.remedy() + ", or ");
 }
 
 Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& host)

@@ -243,13 +243,19 @@ private:
             const topology::Face* face = face_of(patch);
             if (face == nullptr || matched == quads || !is_of_deck(*face)) continue;
             const std::size_t given = face->given_quads.size();
-            throw InvalidInput(Message("io.not_conformal",
-                                       "{}: only {} of the mesh's {} quads match the deck, whose "
-                                       "elements have {} quads and {} triangles there",
-                                       entity_of(patch), found(matched), needed(quads), given,
-                                       face->triangles.size() - std::min(2 * given, face->triangles.size()))
-                                   .remedy("load the deck with keep_mesh = true, and sweep with quads = "
-                                           "\"auto\" or \"keep\" (mesh:report lists the kept meshes)"));
+            const std::size_t triangles = face->triangles.size() -
+                                          std::min(2 * given, face->triangles.size());
+            const Message why(
+                "io.not_conformal",
+                "{}: only {} of the mesh's {} quads match the deck, whose elements have {} quads "
+                "and {} triangles there",
+                entity_of(patch), found(matched), needed(quads), given, triangles);
+            throw InvalidInput(
+                triangles > 0
+                    ? why.remedy("only tetrahedra keep the triangles: sweep with quads = \"keep\" and "
+                                 "fallback = \"mixed\"")
+                    : why.remedy("load the deck with keep_mesh = true, and sweep with quads = \"auto\" or "
+                                 "\"keep\" (mesh:report lists the kept meshes)"));
         }
     }
 
