@@ -162,7 +162,7 @@ local ends = 'source = "source", target = "target"'
 tells("closure.end_moved", prism('sides = 4, drop = { "target", "wall_2" }',
   'source = "source", walls = { "wall_1", "wall_3", "wall_4" }'))
 tells("closure.end_moved", prism('sides = 6, drop = { "target", "wall_2", "wall_3" }',
-  'source = "source", walls = { "wall_1", "wall_4", "wall_5", "wall_6" }'))
+  'source = "source", walls = { "wall_1", "wall_4", "wall_5", "wall_6" }, class = "IV"'))
 local chamfered = [[
 local width = %g
 local low = { { 0, 0, 0 }, { 3, 0, 0 }, { 3, 3 - width, 0 }, { 3 - width, 3, 0 }, { 0, 3, 0 } }

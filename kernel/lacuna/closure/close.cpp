@@ -380,10 +380,15 @@ bool lacks_walls(const OpenVolume& volume)
 std::optional<Closed> seal_as_source_tells(const OpenVolume& volume, const CloseOptions& options,
                                            const RunContext& context)
 {
-    if (options.cap == Cap::flat || !options.void_edges.empty() || volume.override_class) return std::nullopt;
-    auto moved = move_source(volume, context);
+    if (options.cap == Cap::flat || !options.void_edges.empty() ||
+        volume.override_class.value_or(VolumeClass::IV) != VolumeClass::IV)
+        return std::nullopt;
+    OpenVolume open = volume;
+    open.override_class.reset(); // with the moved end it is of class II or III
+    auto moved = move_source(open, context);
     if (!moved) return std::nullopt;
     refuse_guess(*moved, options);
+    moved->volume.override_class = volume.override_class;
     Closure& closure = moved->closure;
     closure.value = VolumeClass::IV;
     closure.algorithms.insert(closure.algorithms.begin(), "Algorithm 10");
