@@ -36,6 +36,7 @@ namespace {
 /// points. CAD files of 10 to 86 kB take 0.1 to 1 s. A file that hangs must fail within 20 s.
 constexpr double kSeconds = 12, kSecondsPerMegabyte = 100, kSecondsPerThousand = 0.5;
 constexpr double kMostSeconds = 3600;
+constexpr std::uint64_t kMegabyte = 1'000'000; ///< unit of LACUNA_CAD_MEGABYTES
 /// Address space of a request: the libraries take about 0.6 GB, a model of 86 kB less than 0.2 GB.
 constexpr std::uint64_t kMemory = std::uint64_t{1792} << 20;
 constexpr std::uint64_t kMemoryPerByte = 2000, kMemoryPerPoint = 2000;
@@ -66,7 +67,7 @@ double seconds_for(const Task& task)
 /// @param charged  memory for the files and points in the process, besides the constant part [bytes].
 std::uint64_t memory_for(const Task& task, std::uint64_t charged)
 {
-    auto memory = static_cast<std::uint64_t>(from_environment("LACUNA_CAD_MEGABYTES") * 1e6);
+    auto memory = static_cast<std::uint64_t>(from_environment("LACUNA_CAD_MEGABYTES") * kMegabyte);
     if (memory == 0) memory = kMemory + charged;
     if (task.limits.memory == 0) return memory;
     return task.limits.may_raise ? task.limits.memory : std::min(task.limits.memory, memory);
@@ -432,8 +433,8 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
         // The process may hold memory of the failed attempt, so it is killed.
         end("it ran out of memory on " + task.subject);
         throw BackendError(Message("cad.memory_limit",
-                                   "{}: {} took more than the {} MiB that the CAD process may use",
-                                   task.subject, doing(task), needed(memory >> 20))
+                                   "{}: {} took more than the {} MB that the CAD process may use",
+                                   task.subject, doing(task), needed(memory / kMegabyte))
                                .remedy("repair the file, or allow more with LACUNA_CAD_MEGABYTES"));
     default:
         throw BackendError(Message(failure.message));
