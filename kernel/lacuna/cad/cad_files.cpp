@@ -179,7 +179,7 @@ void add_merged(CadFiles& files, std::size_t first, const std::string& folder, c
                 throw InvalidInput(Message("cad.script",
                                            "{}, line {}: the script includes more than {} files", own,
                                            wanted.line, needed(kMostContents - 1))
-                                       .remedy("join some of these files"));
+                                       .remedy("merge some of these files into one"));
             if (::access((folder + wanted.name).c_str(), F_OK) != 0) {
                 throw InvalidInput(
                     Message("cad.script",

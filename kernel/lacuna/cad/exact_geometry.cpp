@@ -101,7 +101,7 @@ CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const RunC
     const std::string remedy = std::exchange(trouble.remedy, {});
     throw BackendError(
         Message("cad.file_changed",
-                "the exact geometry is needed in a new CAD process, but cannot be loaded again: {}", trouble)
+                "another CAD process is needed, but it cannot load the exact geometry again: {}", trouble)
             .remedy("{}", remedy.empty() ? "restore the file, or call lacuna.load again and rebuild the model"
                                          : remedy));
 }

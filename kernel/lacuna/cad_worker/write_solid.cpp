@@ -100,7 +100,7 @@ std::pair<int, double> sew(Session& session, const std::vector<int>& faces, cons
     session.refuse(Message("cad.not_sewn",
                            "the {} faces do not form one solid, even if gaps of up to {:.6g} are closed",
                            faces.size(), needed(last))
-                       .remedy("write the facets with write_facets"));
+                       .remedy("use a larger 'tolerance', or write the facets with write_facets"));
 }
 
 /// Write the current model to a file and check that the file is complete. Open CASCADE may not report a
@@ -176,7 +176,7 @@ void check_volume(const Session& session, double volume, const MakeSolidRequest&
                 "the solid has a volume of {:.6g}, but the facets enclose {:.6g}: a surface fitted "
                 "to a void face bulges",
                 found(volume), needed(request.facet_volume))
-            .remedy("write the facets with write_facets"));
+            .remedy("allow more with 'deviation', or write the facets with write_facets"));
 }
 
 } // namespace

@@ -142,12 +142,13 @@ private:
     [[noreturn]] void refuse_fold(FaceId face, const Vec3& at, std::size_t row) const
     {
         if (motion_->reach)
-            throw NotClosed(Message("closure.along_folds",
-                                    "the layers over {} would fold at {}: {:.3g} of the thickness fits",
-                                    entity_of(given_, face), place_with_digits(at, 4), found(largest_share()))
-                                .remedy("use a smaller thickness"));
+            throw NotClosed(
+                Message("closure.along_folds",
+                        "the layers over {} would fold at {}: at most {:.3g} of the thickness fits",
+                        entity_of(given_, face), place_with_digits(at, 4), found(largest_share()))
+                    .remedy("use a smaller thickness"));
         Message message("closure.along_folds",
-                        "the layers over {} fold at {}, after a share of {:.3g} of the path: the path bends "
+                        "the layers over {} fold at {}, at {:.3g} of the length of the path: the path bends "
                         "too sharply there for the width of the source, or runs along the source",
                         entity_of(given_, face), place_with_digits(at, 4), found(rows_[row]));
         throw NotClosed(std::move(message).remedy("use a wider bend, or a smaller source"));

@@ -55,7 +55,8 @@ std::function<double(double)> sampled(const Along::Profile& profile, double firs
             throw InvalidInput(Message("closure.along_profile",
                                        "along: '{}' is not a finite number at the height {}", name,
                                        found(height))
-                                   .remedy("let the function return one at every height from 0 to 1"));
+                                   .remedy("let the function return a finite number at every height from 0 "
+                                           "to 1"));
     }
     if (std::abs(values.front() - first) > kSamePlace)
         throw InvalidInput(Message("closure.along_profile",
@@ -185,7 +186,8 @@ std::vector<geometry::PathPart> path_of_function(const std::function<Vec3(double
     const auto parts = cut_at_corners(part);
     if (parts.size() > 1)
         throw InvalidInput(Message("closure.along_path",
-                                   "along: the path turns sharply at {}, where a function must be smooth",
+                                   "along: the path has a corner at {}; a path given as a function must be "
+                                   "smooth",
                                    found(place_with_digits(parts.front().back(), 4)))
                                .remedy("give a path with corners as an array of points"));
     return parts;
@@ -398,10 +400,11 @@ std::vector<double> thickness_at(const Model& model, const std::function<double(
         for (const Index p : corners_of(face)) {
             at[index(p)] = thickness(model.at(p));
             if (!std::isfinite(at[index(p)]))
-                throw InvalidInput(Message("closure.along_thickness",
-                                           "along: the thickness at {} is not a finite number",
-                                           place_with_digits(model.at(p), 4))
-                                       .remedy("let the function return one at every point of the source"));
+                throw InvalidInput(
+                    Message("closure.along_thickness", "along: the thickness at {} is not a finite number",
+                            place_with_digits(model.at(p), 4))
+                        .remedy("let the function return a finite number at every point of the "
+                                "source"));
         }
     note_coarse_facets(model, thickness, at, context);
     return at;
@@ -519,7 +522,8 @@ struct MotionMaker {
         swept.full_turn = std::abs(along.angle) == kWhole;
         if (swept.full_turn && (by.twist || by.scale))
             throw InvalidInput(Message("closure.along_full_turn",
-                                       "along: a full turn ends on its source, which twist and scale change")
+                                       "along: a full turn must end on its source, but 'twist' or 'scale' "
+                                       "changes the end")
                                    .remedy("leave them out, or use a smaller angle"));
         geometry::Motion motion = geometry::screw(along.point, axis, angle, 0);
         if (swept.full_turn) motion.levels = {0, 0.5, 1}; // the two halves are swept separately

@@ -41,11 +41,13 @@ void prove_sealed(const OpenVolume& volume)
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
         if (uses.size() == 2 && uses[0].reversed != uses[1].reversed) continue;
-        throw NotClosed(Message("closure.not_watertight",
-                                "{} is used {} times{} after closing instead of twice in opposite directions",
-                                entity_of(model, EdgeId(e)), found(uses.size()),
-                                uses.size() == 2 ? " in the same direction" : "")
-                            .remedy("check the faces next to it"));
+        throw NotClosed(
+            Message("closure.not_watertight",
+                    "after closing, {} belongs to {} face{}{} instead of two faces that use it in "
+                    "opposite directions",
+                    entity_of(model, EdgeId(e)), found(uses.size()), uses.size() == 1 ? "" : "s",
+                    uses.size() == 2 ? " that use it in the same direction" : "")
+                .remedy("check the faces next to it"));
     }
     if (!(enclosed_volume(volume) > 0)) {
         throw NotClosed(
@@ -69,19 +71,22 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
     if (options.holes != Holes::automatic && holes.empty()) {
         throw InvalidInput(
             Message("closure.holes_unused",
-                    "the option holes applies only to holes without walls in a given end, and there are none")
-                .remedy("leave the option out"));
+                    "the option 'holes' applies only to holes without walls in a given end, and there are "
+                    "none")
+                .remedy("leave 'holes' out"));
     }
     if (!options.void_edges.empty() && !has_two_ends(value)) {
         if (value == VolumeClass::closed)
             throw InvalidInput(
-                Message("closure.void_edges_unused", "void_edges replace missing walls, and none is missing")
-                    .remedy("leave void_edges out"));
+                Message("closure.void_edges_unused",
+                        "the option 'void_edges' replaces missing walls, and no wall is missing")
+                    .remedy("leave 'void_edges' out"));
         throw InvalidInput(
             Message("closure.void_edges_unused",
-                    "void_edges join a given source and target, and a volume of class {} lacks one of these",
+                    "the option 'void_edges' joins a given source and target, and a volume of class {} lacks "
+                    "one of these",
                     found(to_string(value)))
-                .remedy("leave void_edges out, or name both ends"));
+                .remedy("leave 'void_edges' out, or name both ends"));
     }
     if (options.cap == Cap::automatic || value == VolumeClass::IV) return;
     if (value == VolumeClass::V && options.cap == Cap::flat) return;
@@ -90,11 +95,12 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
                                    "cap = \"parallel\" copies the shape of the given end, but both ends are "
                                    "missing (class V)")
                                .remedy("use cap = \"flat\", or name the source"));
-    throw InvalidInput(Message("closure.cap_unused",
-                               "the option cap shapes a missing end, but {} and {} are both given",
-                               entity_of(volume.model, volume.faces(Role::source).front()),
-                               entity_of(volume.model, volume.faces(Role::target).front()))
-                           .remedy("leave cap out"));
+    throw InvalidInput(
+        Message("closure.cap_unused",
+                "the option 'cap' sets the shape of a missing end, but {} and {} are both given",
+                entity_of(volume.model, volume.faces(Role::source).front()),
+                entity_of(volume.model, volume.faces(Role::target).front()))
+            .remedy("leave 'cap' out"));
 }
 
 /// Angle between the normals of the two ends, both taken in the direction from source to target [radian].
@@ -266,8 +272,8 @@ private:
         if (value_ == VolumeClass::IV && !closure.void_edges.empty())
             assume_walls(sealed,
                          {"closure.walls_filled",
-                          "walls next to the missing target end below it; flat faces that meet in "
-                          "straight edges continue them"},
+                          "the walls beside the missing target stop below it and are continued by flat faces "
+                          "that meet in straight edges"},
                          closure);
         note_open_rims(sealed, options_.take_guess ? RolesBy::finding : RolesBy::person, closure);
         if (options_.take_guess) note_joined_rims(sealed.model, closure);
@@ -403,7 +409,8 @@ matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options
     return matching::match(volume, by_hand, context);
 }
 
-/// Close a volume. Holes without walls in its ends were covered before, or are extended to the other end.
+/// Close a volume. Holes without walls in its ends are extended to the other end, unless the caller covered
+/// them.
 /// @param whole  the class of `volume`
 Closed close_rest(const OpenVolume& volume, const matching::Match& match, VolumeClass whole,
                   const Asked& options, const RunContext& context)
@@ -441,16 +448,21 @@ Closed close_covered(const OpenVolume& volume, const std::vector<EndHole>& holes
     return closed;
 }
 
+std::string number_of(const std::vector<EndHole>& holes)
+{
+    return holes.size() == 1 ? "a hole" : formatted("{} holes", holes.size());
+}
+
 /// The error about holes without walls. It lists both options and the volumes that they enclose.
 Message holes_message(const Model& model, const std::vector<EndHole>& holes, const HoleVolumes& volumes)
 {
     const auto encloses = [](const std::optional<double>& volume) {
-        return volume ? formatted("encloses {:.7g}", *volume) : "cannot be sealed";
+        return volume ? formatted("and encloses {:.7g}", *volume) : "but the volume cannot be sealed";
     };
     return Message("closure.holes_open", "{} has {} without walls", entity_of(model, holes.front().face),
-                   holes.size() == 1 ? "a hole" : formatted("{} holes", holes.size()))
-        .remedy("close{{ holes = \"cover\" }}, which closes them by flat faces, {}; close{{ holes = "
-                "\"through\" }}, which extends them to the missing end, {}",
+                   number_of(holes))
+        .remedy("close{{ holes = \"cover\" }} closes each hole by flat faces {}; close{{ holes = "
+                "\"through\" }} extends each hole to the missing end {}",
                 encloses(volumes.covered), encloses(volumes.through));
 }
 
@@ -476,8 +488,12 @@ Closed close_as_asked(const OpenVolume& volume, const matching::Match& match, co
     Closed closed = close_rest(volume, match, whole, options, context);
     if (volumes)
         assume(closed.closure,
-               {"closure.hole_through", "{}; here they are extended",
-                holes_message(volume.model, holes, *volumes).parts()},
+               {"closure.hole_through",
+                "{} has {} without walls, extended to the missing end here; close{{ holes = \"cover\" }} {}",
+                entity_of(volume.model, holes.front().face), number_of(holes),
+                volumes->covered ? formatted("encloses {:.7g} instead of {:.7g}", *volumes->covered,
+                                             enclosed_volume(closed.volume))
+                                 : "is not possible"},
                share_between(enclosed_volume(closed.volume), volumes->covered));
     return closed;
 }

@@ -349,7 +349,8 @@ private:
         }
         if (turned != 0 && turned != static_cast<int>(cycles.size()))
             throw InvalidInput(Message("topology.mesh_unlike_face",
-                                       "the rims of the mesh for {} are not oriented like its loops",
+                                       "some rims of the mesh for {} run with the loops of the face, and "
+                                       "others against them",
                                        entity_of(model_, face_))
                                    .remedy("orient all quads alike"));
         if (turned == 0) return;

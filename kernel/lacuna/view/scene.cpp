@@ -289,8 +289,8 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
 
 namespace {
 
-/// The corners of a face of a cell that may be stored with merged corners, a triangle as {a, b, c, c}; empty:
-/// the face is an edge or a point.
+/// The corners of a cell's face; a triangle as {a, b, c, c}. A cell may be stored with merged corners: empty
+/// if the face has collapsed to an edge or a point.
 std::optional<Quad> face_nodes(const Hex& hex, const Quad& face)
 {
     Quad nodes{};
@@ -342,7 +342,8 @@ Scene scene_of(const DeckCells& deck, const PictureOptions& options, const RunCo
     if (options.layers || options.colour == ColourBy::layer)
         throw InvalidInput(
             Message("view.layers",
-                    "picture: only swept meshes have layers, not those read from a file or with tetrahedra")
+                    "picture: only swept meshes have layers; meshes read from a file and meshes with "
+                    "tetrahedra have none")
                 .remedy("leave out 'layers', and colour by quality, groups or region"));
     Scene scene;
     Colours colours;

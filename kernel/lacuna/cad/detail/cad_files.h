@@ -40,7 +40,7 @@ std::string text_of(const cad_protocol::Descriptor& file, std::size_t most);
 
 /// Open CAD files and check that their contents agree with their file extensions. A script is parsed: files
 /// of its own folder that it includes or merges are copied as well, and commands that mesh or write files are
-/// removed from the copy that Gmsh runs. Any other command that does not make geometry is an error.
+/// removed from the copy that Gmsh runs. Commands that run programs are errors.
 /// @throw InvalidInput  a file is not regular or does not have the format of its extension, or a script has a
 ///                      forbidden command; names file and line.
 /// @throw BackendError  a file cannot be read.
