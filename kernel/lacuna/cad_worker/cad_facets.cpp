@@ -348,8 +348,8 @@ std::vector<Triangle> triangulate(const GridDomain& domain)
     return inside;
 }
 
-/// Whether two facets have the same directed side. This happens in some files, where a surface of revolution
-/// turns twice around its axis and so covers itself.
+/// Whether any two facets share a side in the same direction. This happens in some files, where a surface of
+/// revolution turns twice around its axis and so covers itself.
 bool covers_itself(const std::vector<Triangle>& triangles)
 {
     std::vector<std::pair<Index, Index>> sides;

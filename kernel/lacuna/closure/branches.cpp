@@ -45,9 +45,10 @@ constexpr double kSameSide = 0.87;
 /// and the branch's direction is below this. The limit is about halfway between an end perpendicular to the
 /// branch (0°) and a wall along the branch (90°).
 constexpr double kAlongWay = 0.72;
-/// A plane along the main body is moved onto an edge across the main body's end if the distance is below this
-/// share of the widest mouth's width; a sliver would be left otherwise. A plane makes no new line on a wall
-/// where an edge is as near. A higher value moves the planes further from the centres of their mouths.
+/// If a plane along the main body passes an edge inside the main body's end at less than this share of the
+/// widest mouth's width, the plane is moved onto the edge, so that no sliver is left. On a wall, the plane
+/// makes no line within this distance of an edge along the axis. A higher value moves the planes further from
+/// the centres of their mouths.
 constexpr double kBeside = 0.1;
 /// Number of chords of a dip, which is a parabola. The sag of a chord is 1/256 of the depth of the dip.
 constexpr int kChords = 16;

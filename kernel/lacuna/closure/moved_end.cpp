@@ -164,8 +164,8 @@ private:
         return true;
     }
 
-    /// The chain of free wall edges from one vertex to another. Empty if there is none, or if it passes a
-    /// vertex of the given end.
+    /// The chain of free wall edges from one vertex to another. Empty if there is none, or if it passes
+    /// through a vertex of the given end.
     [[nodiscard]] std::vector<EdgeUse> top_between(VertexId from, VertexId to) const
     {
         std::vector<EdgeUse> top;

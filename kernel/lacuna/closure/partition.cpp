@@ -36,9 +36,9 @@ namespace {
 /// Largest number of trial cuts, and of pieces. With these limits, a volume with hundreds of features takes
 /// seconds.
 constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
-/// Largest number of cuts of a piece for whose pieces ends are searched: those that leave the least length to
-/// cut. The search for ends costs more than a cut. The same number limits the planes between features and the
-/// axes of `cut_in_steps()`.
+/// Ends are searched only in the pieces of this many cuts: the ones that leave the least length to cut. The
+/// search for ends costs more than a cut. The same number limits the planes between features and the axes of
+/// `cut_in_steps()`.
 constexpr std::size_t kMostRead = 6;
 
 /// A piece of the volume. Its bends and the length left to cut matter only if it has no ends.
@@ -203,9 +203,9 @@ std::vector<Vec3> centres_of(const Model& model)
     return centres;
 }
 
-/// Normals of three perpendicular planes to cut through a centre. Normals of flat faces and directions to
-/// other centres are preferred. If these do not suffice, directions to vertices or points of edges are used.
-/// Another of the planes then contains such a point. A plane that passes closely beside an edge would be
+/// Normals of three perpendicular planes to cut through a centre: preferably normals of flat faces, then
+/// directions to other centres. If these do not suffice, a normal points towards a vertex or a point of an
+/// edge. Another plane then passes through that point; if it passed closely beside an edge, the cut would be
 /// refused.
 std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& centres,
                                   const OpenVolume& volume)
@@ -234,8 +234,8 @@ std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& c
 }
 
 /// Cut a volume by three planes at right angles through the centre of a sphere or the apex of a cone.
-/// Example: a ball is cut into octants. The parts must have ends, or are divided at their middles. Empty if
-/// no centre gives such parts.
+/// Example: a ball is cut into octants. A part without ends is divided at its middle. Empty if no centre
+/// gives parts that can be swept or divided in this way.
 std::vector<StepPiece> divided_at_centre(const OpenVolume& volume, std::size_t most,
                                          const CanSweep& can_sweep, const RunContext& context)
 {

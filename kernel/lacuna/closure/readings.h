@@ -58,11 +58,11 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// Each of topology::role_candidates() is sealed; candidates that cannot be sealed are dropped. Two
 /// candidates enclose the same void if their volumes are equal within a tolerance and the distance of their
 /// void faces is small compared with the size of the void. The sealed skin of each void is then searched for
-/// its best sweep direction. Only directions about as likely as the likeliest count. The best one has the
-/// fewest expected irregular nodes; among equals, a direction with open ends is preferred to one between
-/// given ends, and this one to a direction between void faces. The volume stays open if a candidate of the
-/// given faces has the same ends. The next three directions are kept, for the case that the best one cannot
-/// be meshed.
+/// the best sweep direction among those about as likely as the likeliest one. The best one has the fewest
+/// expected irregular nodes; among equals, a direction with open ends comes first, then one between given
+/// ends, then one between void faces. If a candidate of the given faces has the ends of this direction, the
+/// result is the open volume with these roles, not the sealed one. The next three directions are kept, in
+/// case the best one cannot be meshed.
 ///
 /// Some hollows have no candidate, because their bottom blends smoothly into their walls, such as a
 /// hemisphere or a bore with a round end. Such a hollow is split across the blend; its bottom is the source.

@@ -201,7 +201,7 @@ private:
 
     /// The plane of the missing face at a run. Empty in any of these cases: the run is straight or not flat;
     /// the rim of the face would cross itself; all given faces along the run lie in the plane, so that the
-    /// face would double or only continue them.
+    /// new face would overlap or merely extend them.
     [[nodiscard]] std::optional<geometry::Plane> plane_of_run(const FaceChain& run) const
     {
         std::vector<Vec3> points = points_along(run);

@@ -85,11 +85,12 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
     return ends.size() < 2 || (before > 0 && behind < 0) ? 0 : before + behind;
 }
 
-/// For each part, whether its facets face the void. The first applicable rule decides:
-/// 1. if the part is open and inside no other part: the void is on the side of the ends on which all its
-///    walls lie;
-/// 2. if the part is open: the void is on the side of its ends towards the opposite ends;
-/// 3. the void is on the side of the facets' centroid; for a part inside another part, on the other side.
+/// For each part, whether its facets face the void. The first rule that applies decides:
+/// 1. an open part, inside no other part, whose walls all lie on one side of its ends: the void is there too;
+/// 2. another open part with an end that faces towards or away from the opposite end: the void is on the side
+///    of its ends that faces the opposite ends;
+/// 3. any other part: the void is on the side of the facets' centroid, or on the other side if the part is
+///    inside another part.
 std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
                                     const std::vector<double>& folds, const RunContext& context)
 {

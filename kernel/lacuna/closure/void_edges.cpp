@@ -92,7 +92,8 @@ std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spa
     return inner_points(segments, [&](double f) -> Vec3 { return (1 - f) * from + f * to; });
 }
 
-/// Points that follow the walls' motion between the heights of the gap's ends, shifted to meet these ends.
+/// Points of a void edge across a gap: they follow the walls' motion, and are shifted so that the first and
+/// the last meet the ends of the gap.
 std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Follower& follower)
 {
     const auto at = [&](VertexId v) { return model.at(model[v].point); };

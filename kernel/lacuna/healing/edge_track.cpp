@@ -136,8 +136,8 @@ std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<
     double least = 0;
     Vec3 before = points_.front();
     for (std::size_t q = 0; q < points.size(); ++q) {
-        // Length of the edge in which the next point is searched. A curve longer than four times the chord
-        // between two points would be further from the other edge than the tolerance.
+        // Length of the edge in which the next point is searched. If the edge between two points were longer
+        // than four chords, it would deviate from the followed edge by more than the tolerance.
         double window = 4 * ((points[q] - before).norm() + 2 * reach) +
                         (points_[from + 1] - points_[from]).norm();
         places[q].distance = kInfinity;

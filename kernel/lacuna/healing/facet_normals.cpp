@@ -13,11 +13,11 @@
 namespace lacuna::healing {
 namespace {
 
-/// kRough: a point on a crease is rough if the surface turns up at some sides there and down at others. Only
-/// turns between this share of the feature angle and the feature angle count. kNoisy: the surface is noisy if
-/// more than this share of the points on creases is rough. In tessellated CAD models the share is 0 %, or up
-/// to 13 % where branches of coarse facets meet at about the feature angle. With noise of 5 to 40 % of the
-/// facets' sides, the share is 41 to 85 %.
+/// kRough: a point on a crease is rough if facets meet convexly at some of its sides and concavely at others.
+/// Only sides whose angle is between kRough times the feature angle and the feature angle are considered.
+/// kNoisy: the surface is noisy if more than this share of the points on creases is rough. In tessellated CAD
+/// models the share is 0 %, or up to 13 % where branches of coarse facets meet at about the feature angle.
+/// With noise of 5 to 40 % of the facets' sides, the share is 41 to 85 %.
 constexpr double kRough = 0.125, kNoisy = 0.25;
 
 /// Whether two facets, or the quads that contain them, have the same corners.

@@ -83,7 +83,7 @@ std::string_view unread_by_content(std::string_view bytes)
     return counts && node ? "an AVS UCD file" : std::string_view();
 }
 
-/// The extension of the file type that the first bytes show; empty: unknown.
+/// The extension of the file type that the first bytes identify; empty if they identify none.
 std::string_view ending_by_content(std::string_view bytes)
 {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);

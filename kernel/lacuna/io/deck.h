@@ -101,8 +101,8 @@ struct DeckInstance {
     DeckTag offset = 0;                      ///< offset of its node and element numbers
 };
 
-/// Text of a file besides its mesh, verbatim, with line ends. It is written again if the format stays the
-/// same. The text of an included file replaces the INCLUDE card.
+/// Text of a file outside its mesh, verbatim, with line ends. It is written again if the output has the same
+/// format. The text of an included file replaces the INCLUDE card.
 struct DeckText {
     enum class Place : std::uint8_t {
         head,  ///< before the mesh: executive and case control up to BEGIN BULK; text before the first *NODE

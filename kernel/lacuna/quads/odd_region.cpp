@@ -186,8 +186,9 @@ struct Window {
 /// @param middle   the added node; all nodes before it are nodes of the region.
 Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle)
 {
-    // Number of rings to include: the length of the rows, the rings around them, and the cells of their
-    // nodes.
+    // Number of rings of quads to include. A row extends at most kMostSteps - 1 rings from the middle node,
+    // the nodes that move lie up to kRings further, and one more ring contains their cells. The other two
+    // rings are a margin.
     constexpr std::size_t kReach = kMostSteps + kRings + 2;
     const mesh::Incidence at = mesh::quads_at_nodes(mesh.quads, mesh.points.size());
     std::vector<Index> number(mesh.points.size(), -1);

@@ -146,7 +146,7 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
     // Maximum number of positions tried along a side of three or five, to limit the time.
     constexpr int kTried = 16;
     const CutRanker ranker(loop);
-    // Difference between the numbers of the two sides that the cut joins. For an even number of sides, the
+    // Difference between the indices of the two sides that the cut joins. For an even number of sides, the
     // cut has one or three corners on either side. With two corners on either side, the parts of a patch of
     // four sides would only be strips.
     const std::size_t between = n / 2 - (n == 4 ? 1 : 0);

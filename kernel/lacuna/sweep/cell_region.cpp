@@ -140,7 +140,7 @@ mesh::Incidence uses_of(const CellRegion& region)
     return mesh::incidence(region.free, [&](const auto& visit) {
         for (std::size_t c = 0; c < region.cells.size(); ++c) {
             for (std::size_t k = 0; k < 8; ++k) {
-                // Two corners of a wedge coincide in one node; only the first of them counts.
+                // In a wedge, corners 3 and 7 are the same nodes as 2 and 6, and are not counted again.
                 if (k % 4 == 3 && mesh::is_wedge(region.cells[c])) continue;
                 if (index(region.cells[c][k]) < region.free)
                     visit(index(region.cells[c][k]), static_cast<Index>(8 * c + k));

@@ -40,8 +40,9 @@ using namespace topology;
 
 namespace {
 
-/// Whether walls are meshed while another thread meshes the source's quads. This saves time if the quads,
-/// which use one thread, take long. It is possible only if the two tasks do not need the same CAD process.
+/// Whether to mesh the walls while another thread paves the source. This saves time if paving, which uses one
+/// thread, takes long. It is possible only without exact geometry, for which both tasks would need the same
+/// CAD process.
 bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
                   const std::vector<surface::LinkingNodes>& rim, const std::vector<double>& heights)
 {
@@ -53,9 +54,9 @@ bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
     if (!free || std::ranges::any_of(volume.model.faces, exact) ||
         std::ranges::any_of(volume.model.edges, on_curve))
         return false;
-    // The time for quads grows with the square of the number of rim sides. The time for walls grows with rim
+    // The time for paving grows with the square of the number of rim sides. The time for walls grows with rim
     // sides times layers, and the walls get one thread here. With many layers they would therefore take
-    // longer than the quads. Measured: 4 µs per quad, 0.6 µs per wall node.
+    // longer than paving. Measured: 4 µs per quad, 0.6 µs per wall node.
     std::size_t round = 0;
     for (const surface::LinkingNodes& nodes : rim) round += nodes.source_at.size();
     return 2 * heights.size() <= round;

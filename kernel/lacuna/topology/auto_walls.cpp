@@ -209,9 +209,9 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
     return result;
 }
 
-/// The faces next to each connected set of walls that reaches from the end to the rim of the cavity. The
+/// The faces next to each connected set of walls that extends from the end to the rim of the cavity. The
 /// walls around a step of the end do not reach the rim. A flat face next to walls that do, such as a ledge at
-/// a side wall, is therefore no step but a wall.
+/// a side wall, is therefore a wall, not a step.
 std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>& walls,
                                    const std::vector<FaceId>& end, const std::vector<FaceId>& cavity)
 {

@@ -12,17 +12,18 @@ namespace lacuna::closure {
 /// Whether the user or the program chose the roles of the faces.
 enum class RolesBy { person, finding };
 
-/// The error about the first void face of a sealed volume whose bend is ambiguous, without a remedy; empty if
+/// The error about the first void face with an ambiguous bend in a sealed volume, without a remedy; empty if
 /// there is none. The code is "closure.shape_open" if the user chose the roles, otherwise
 /// "topology.shape_open". Two kinds of void faces are ambiguous:
 ///
 /// - A membrane: a face whose rim does not determine its inside. If the user chose the roles, the membrane is
 ///   the missing end, and closing interpolates it (Algorithm 4). In that case it is ambiguous only if it
-///   differs from the thin plate over the same rim, or if straight sides suggest several flat faces.
+///   differs from a thin-plate spline over the same rim, or if straight sides suggest several flat faces.
 /// - A bent void face that is far from another quadric through its rim.
 ///
-/// A membrane over a rough rim is not ambiguous. Rough rim: its points are off a plane by at most a twentieth
-/// of its diameter, and different smooth faces over it change the enclosed volume by at most 2 %.
+/// A membrane over a rough rim is not ambiguous. A rim is rough, not bent, if its points deviate from a plane
+/// by at most a twentieth of its diameter, and different smooth faces over it change the enclosed volume by
+/// at most 2 %.
 std::optional<Message> guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
 
 /// A face of `model` with a hole that was closed in the face's plane, while an end that does not touch the

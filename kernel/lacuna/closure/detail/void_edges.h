@@ -41,8 +41,8 @@ struct Course {
 /// The distance of an inner control point from the nearer end is c / (3 cos²(θ/4)), where c is the chord and
 /// θ the sum of the angles between the tangents and the chord. With this distance the curve approximates a
 /// circular arc of 90° within 0.03 % of the radius.
-/// @throw InvalidInput  a user's void edge names no vertex of the free rims, is given twice, contradicts the
-///         match, or crosses a given face; names the vertices.
+/// @throw InvalidInput  a user's void edge names a vertex that is not on a free rim, is given twice,
+///         contradicts the match, or crosses a given face; names the vertices.
 /// @throw NotClosed  edges are smooth, and the ends do not determine to which side they bend.
 std::vector<EdgeId> make_void_edges(topology::OpenVolume& volume, const matching::Match& match,
                                     const std::vector<VoidEdge>& by_hand, const Course& course,

@@ -7,7 +7,7 @@
 
 namespace lacuna::closure {
 
-/// Add a void edge through new points, or a straight one.
+/// Add a void edge through the points `between`; straight if there are none.
 EdgeId add_void_edge_through(topology::Model& model, VertexId from, VertexId to,
                              const std::vector<Vec3>& between = {});
 EdgeId add_void_edge_through(topology::ModelBuilder& builder, VertexId from, VertexId to,

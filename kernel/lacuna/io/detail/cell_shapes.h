@@ -51,8 +51,8 @@ inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int
     return {};
 }
 
-/// The brick as which a pyramid is written in UNV and Abaqus: its four upper nodes are the apex. UNV has no
-/// pyramid. Abaqus has a pyramid of order 1 only, and CalculiX does not know this pyramid.
+/// The brick that stands for a pyramid in UNV and Abaqus files: its four upper nodes are all the apex. UNV
+/// has no pyramid. Abaqus has one of order 1 only, which CalculiX does not know.
 ///
 /// - The displacement of the brick of eight nodes is linear along the sides of the pyramid, so the brick is
 ///   compatible with tetrahedra. In a patch test with CalculiX, the stress is uniform to 1e-12.

@@ -43,8 +43,8 @@ void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& curs
 void note_groups(const std::vector<std::string_view>& names, DeckBuilder& into);
 
 /// Convert wedges to the order of `mesh::Wedge`. In VTK's own order the triangle 0-1-2 faces away from 3-4-5;
-/// in any other order VTK computes negative volumes. But Gmsh and meshio write the opposite order. The sum of
-/// the volumes shows which order a file uses.
+/// with the opposite order VTK computes negative volumes, but Gmsh and meshio write it. The sign of the total
+/// volume shows which order a file uses.
 void turn_vtk_wedges(Deck& deck);
 
 } // namespace lacuna::io

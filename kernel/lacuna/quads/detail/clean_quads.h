@@ -23,15 +23,14 @@ struct CleanOptions {
     double effort = 3;
 };
 
-/// Change the connections of quads so that more interior points have four quads, and more boundary points
-/// have the number of quads that suits their angle. The boundary is not changed.
+/// Change the connections of quads so that more interior points have valence 4, and more boundary points have
+/// the valence that suits their angle. The boundary is not changed.
 ///
-/// 1. Doublets are removed: the two quads at an interior point of two quads are merged.
+/// 1. Doublets are removed: an interior point of valence 2 is deleted, and its two quads become one.
 /// 2. Patches are grown around irregular points until no corner of their outline is concave.
 /// 3. Each patch is filled with the template of two to six sides that has the fewest irregular points (Bunin
 ///    2006; Verma and Suresh 2017). One template replaces many local changes (collapsed quads, swapped and
-///    opened edges, collapsed chords). It also removes pairs of a point of three quads and a point of five
-///    that are far apart.
+///    opened edges, collapsed chords). It also removes pairs of points of valence 3 and 5 that are far apart.
 ///
 /// A filling is kept if the smoothed patch fulfils three conditions:
 /// - all corners are positive;

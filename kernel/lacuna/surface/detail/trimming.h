@@ -22,10 +22,10 @@ struct Projected {
 ///
 /// Seams and poles are not part of the border. Whether a point is inside or outside follows from the nearest
 /// place on the border's polyline: the point is inside if it lies in the inward direction from there.
-/// - Inside a side of the polyline, the inward direction is that of the side.
+/// - Between the ends of a side, the inward direction is that of the side.
 /// - At a corner, it is the sum of the inward directions of both sides (Bærentzen and Aanæs 2005).
-/// - If the point is closer to the side than the exact curve may be (`Side::bulge`), the nearest point of the
-///   exact curve is used instead.
+/// - If the distance from the side is at most `Side::bulge`, the exact curve may pass on either side of the
+///   point. The nearest point of the exact curve is then used instead.
 class Trimming {
 public:
     Trimming(const topology::Model& model, FaceId face);

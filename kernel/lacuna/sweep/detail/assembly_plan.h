@@ -23,13 +23,16 @@ struct AssemblyPlan {
 /// Numbers of sides for all edges of an assembly (`EdgeCounts`), and the nodes of shared edges.
 ///
 /// Nodes are evenly spaced, with three exceptions:
-/// - Beside narrow places of a source, nodes follow the size there, on all edges of the class.
+/// - Beside narrow places of a source, nodes follow the size there, also on all edges that need the same
+///   number of sides (a class of `EdgeCounts`).
 /// - On side lines, nodes follow the layers.
 /// - Where rows of boundary layers end on an edge, the edge has nodes at the heights of the rows.
 ///
 /// Edges of faces shared with an unswept volume are treated as shared edges. Side lines on such faces, and on
 /// walls that are a part of another member's end, have a node at each vertex.
+/// @param shared  the faces that two members share.
 /// @param beside  the faces shared with volumes that are not swept: index of the member, and its face.
+/// @param periodic  the faces whose meshes are images of each other.
 /// @throw NotSweepable "assembly.layers"  different numbers of layers are requested for members whose side
 ///         lines must have equal numbers of sides; "assembly.layers_differ"  rows of two members end on one
 ///         edge with different heights; "assembly.layers_rows"  an edge has too few sides for the rows that

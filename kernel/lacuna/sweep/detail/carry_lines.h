@@ -14,9 +14,9 @@ namespace lacuna::sweep {
 /// edge between two faces of one end.
 ///
 /// If the sweep maps such a line to faces that another volume shares, the mesh of that volume must contain
-/// the line, and so on through all following volumes. Examples are branches in a row that leave to different
-/// sides, and a branch on a branch. `surface::imprint_target()` copies the lines of one end to the opposite
-/// end, and the parts of shared faces are copied to the neighbours, until nothing changes.
+/// the line, and so on from volume to volume. Examples: consecutive branches that leave a main body on
+/// different sides, and a branch on a branch. `surface::imprint_target()` copies the lines of one end to the
+/// opposite end, and the split of a shared face is copied to the neighbour, until nothing changes.
 /// @param volumes  the members' volumes, to which their `volume` points; changed.
 /// @return  a line of the report for each member whose ends were split.
 /// @throw NotSweepable "surface.not_imprinted"  as `surface::imprint_target()`, or the rims of a shared face
