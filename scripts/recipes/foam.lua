@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: MIT
--- Foam on all six sides of a product with rounded edges, in a box: a space with a skin outside and one
--- inside. What faces up is the source, what faces down the target. The rounds are divided where they are as
--- steep as they are flat, and the foam above the product, below it and around it is swept.
+-- Foam on all six sides of a product with rounded edges, in a box: a space with an outer and an inner skin.
+-- Faces that point up are the source, faces that point down the target. Rounded edges are split along the
+-- line where their surface is inclined by 45°, and the foam above, below and around the product is swept.
 local lacuna = require "lacuna"
 
 local params = lacuna.params {
