@@ -113,7 +113,7 @@ TEST_CASE("rows that end on one edge of two volumes and are unlike are refused, 
     members.options[0].boundary_layers = {rows_on(2, 0.02, 1.5, 3)};
     members.options[1].boundary_layers = {rows_on(2, 0.03, 1.5, 3)};
     CHECK(test::refusal([&] { sweep::sweep_assembly(members.list()); },
-                        {"part_1", "part_2", "side_2", "same boundary_layers table"}) ==
+                        {"part_1", "part_2", "side_2", "same table of 'boundary_layers'"}) ==
           "assembly.layers_differ");
     members.options[1].boundary_layers = members.options[0].boundary_layers;
     test::check_assembly(sweep::sweep_assembly(members.list()), 2);

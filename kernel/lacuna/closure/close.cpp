@@ -287,11 +287,11 @@ private:
         const Tools tools{way, leads() ? &*follower_ : nullptr, options_.void_edges, context_};
         Closure closure = close_as(sealed, match, value_, tools);
         if (const auto crossing = first_crossing(sealed, context_)) {
-            throw NotClosed(
-                Message("closure.faces_cross", "{} of the closing would cross {}",
-                        entity_of(sealed.model, crossing->first), entity_of(sealed.model, crossing->second))
-                    .remedy(
-                        "give the missing face there, or close with another edge_shape, cap or void_edges"));
+            throw NotClosed(Message("closure.faces_cross", "{} of the closing would cross {}",
+                                    entity_of(sealed.model, crossing->first),
+                                    entity_of(sealed.model, crossing->second))
+                                .remedy("give the missing face there, or close with another 'edge_shape', "
+                                        "'cap' or 'void_edges'"));
         }
         prove_sealed(sealed);
         closure.watertight = true;

@@ -218,8 +218,8 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     add_faces(volume, closure, holes, Role::wall, tools);
     if (loops.size() != wanted) {
         throw NotClosed(Message("closure.loop_counts",
-                                "the source has {} loops and the walls leave {} free loops for the target, "
-                                "but both ends need the same number",
+                                "both ends need the same number of loops, but the number is {} for the "
+                                "source, and the walls leave {} for the target",
                                 needed(wanted), found(loops.size()))
                             .remedy("check the walls, or name the target"));
     }

@@ -124,7 +124,7 @@ Message why_no_roles(const Model& given, const std::vector<FaceId>& faces, const
     if (alone)
         return Message("topology.no_roles", "{} is the whole skin, and a single face has no ends",
                        entities_of(given, faces))
-            .remedy("give its sides as faces: load it with a smaller feature_angle, or, in a recipe, call "
+            .remedy("give its sides as faces: load it with a smaller 'feature_angle', or, in a recipe, call "
                     "one add_face for each");
     const std::string cut = cut_at_concave_edge(volume, context);
     const auto advised = [&](Message message, const char* otherwise) -> Message {

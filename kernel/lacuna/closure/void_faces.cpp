@@ -111,7 +111,7 @@ std::vector<Loop> void_loops(const OpenVolume& volume, const std::vector<EdgeId>
         const std::vector<EdgeUse> path = walker.walk(start);
         if (path.empty()) {
             throw NotClosed(
-                Message("closure.walk_open", "the free edges from {} on do not form a closed loop",
+                Message("closure.walk_open", "the free edges that start with {} do not form a closed loop",
                         entity_of(model, start.edge))
                     .remedy("check the faces next to this edge, or pair the vertices with match{{ "
                             "vertices = … }}"));

@@ -378,7 +378,7 @@ FilledParts divided_at(FilledParts mesh, InterfaceFaces& faces)
         if (level < 1 || level >= whole.mesh.layers)
             throw InvalidInput(
                 Message("fill.interface_levels",
-                        "split_interface: a split above layer {} is requested, but the mesh has {} layers",
+                        "split_interface: a split above layer {} is requested, but the last layer is {}",
                         found(level), whole.mesh.layers)
                     .remedy("name a layer from 1 to {}", needed(whole.mesh.layers - 1)));
     std::vector<int> levels{0};

@@ -48,7 +48,7 @@ void check_size(const Vec3& low, const Vec3& high, double diagonal)
     throw InvalidInput(Message("topology.size",
                                "the facets lie between {} and {}: at this size, areas overflow or underflow",
                                place_with_digits(low, 6), place_with_digits(high, 6))
-                           .remedy("load with another scale"));
+                           .remedy("load with another 'scale'"));
 }
 
 /// Weld the points that facets use, and add the welded points to `facets` in the order of the soup.

@@ -364,11 +364,11 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
 {
     if (!(options.feature_angle > 0 && options.feature_angle <= 180)) {
         throw InvalidInput("topology.bad_angle",
-                           "feature_angle is {:.6g} degrees; it must be above {} and at most {}",
+                           "'feature_angle' is {:.6g} degrees; it must be above {} and at most {}",
                            found(options.feature_angle), needed(0), needed(180));
     }
     if (!(options.tolerance >= 0)) {
-        throw InvalidInput("topology.bad_tolerance", "tolerance is {:.6g}; it must be {} or above",
+        throw InvalidInput("topology.bad_tolerance", "'tolerance' is {:.6g}; it must be {} or above",
                            found(options.tolerance), needed(0));
     }
     const double feature = options.feature_angle * std::numbers::pi / 180;

@@ -20,7 +20,7 @@ using mesh::MeshView;
 {
     throw InvalidInput(
         Message("io.too_many_parts",
-                "partitions = {}: the mesh has {} layers, and each partition needs at least one",
+                "partitions = {}: each partition needs at least one layer, but the number of layers is {}",
                 found(parts), needed(layers))
             .remedy("use partitions = {} or fewer", layers));
 }

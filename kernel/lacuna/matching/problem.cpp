@@ -106,8 +106,8 @@ void read_options(Problem& problem)
     for (const int s : problem.options.flip) {
         if (s >= 0 && s < static_cast<int>(problem.source.size())) continue;
         throw InvalidInput(Message("matching.unknown_loop",
-                                   "flip names {}, but the loops are numbered from 1 to {}", source_loop(s),
-                                   needed(problem.source.size()))
+                                   "option 'flip' names {}, but the loops are numbered from 1 to {}",
+                                   source_loop(s), needed(problem.source.size()))
                                .remedy("name loops of volume:match().loops"));
     }
     for (const auto& [s, t] : problem.options.loops) {

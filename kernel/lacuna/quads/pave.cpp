@@ -81,7 +81,7 @@ void check(const PlanarRegion& region)
         throw InvalidInput(Message("surface.pave_loops", "{} and {} of the region cross or touch near {}",
                                    loop(crossing->loop_a), loop(crossing->loop_b),
                                    position_text(region.points[node]))
-                               .remedy("separate them there, or use a smaller size"));
+                               .remedy("separate them there, or use a smaller 'size'"));
     }
     const std::vector<Vec2> outline = region_within(region.points, {region.loops[0]}).region.points;
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
@@ -110,12 +110,12 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
 {
     check(region);
     if (options.exact_rows < 0)
-        throw InvalidInput("surface.pave_rows", "exact_rows must be 0 or more, not {}",
+        throw InvalidInput("surface.pave_rows", "'exact_rows' must be 0 or more, not {}",
                            found(options.exact_rows));
     if (options.exact_rows > 0 && !region.row_height)
-        throw InvalidInput(Message("surface.pave_rows", "exact_rows = {}, but the region has no row_height",
+        throw InvalidInput(Message("surface.pave_rows", "exact_rows = {}, but the region has no 'row_height'",
                                    found(options.exact_rows))
-                               .remedy("give a row_height, or exact_rows = 0"));
+                               .remedy("give a 'row_height', or exact_rows = 0"));
     if (options.exact_rows > 0) return pave_inside_rows(region, options, context);
     AttemptChooser chooser(region, options, context);
     chooser.run();
@@ -125,7 +125,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
             Message("surface.pave",
                     "no valid quads were found for a region of {} boundary nodes: they fold near {}",
                     region.points.size(), position_text(best.where))
-                .remedy("use a smaller size"));
+                .remedy("use a smaller 'size'"));
     }
     // Between sides that nearly touch, and in spikes, all quads are flat.
     if (best.worst <= chooser.flat()) {

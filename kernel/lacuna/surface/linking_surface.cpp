@@ -293,11 +293,10 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
     const RimOf source = rims_of(volume, Role::source);
     const RimOf target = rims_of(volume, Role::target);
     if (source.rims.size() != target.rims.size()) {
-        throw NotSweepable(
-            Message("surface.loop_counts",
-                    "the source has {} loops and the target {}, but a sweep needs equal numbers",
-                    found(source.rims.size()), found(target.rims.size()))
-                .remedy("check source and target, or cut the volume"));
+        throw NotSweepable(Message("surface.loop_counts",
+                                   "source and target must have the same number of loops, but have {} and {}",
+                                   found(source.rims.size()), found(target.rims.size()))
+                               .remedy("check source and target, or cut the volume"));
     }
     const std::vector<matching::SideLine> lines = matching::side_lines(volume, context);
     std::vector<std::optional<LinkingSurface>> by_rim(source.rims.size());

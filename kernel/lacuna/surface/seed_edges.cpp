@@ -174,7 +174,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         throw NotSweepable(Message("surface.too_many_sides",
                                    "{} would have {:.3g} sides at this size, more than node numbers allow",
                                    entity_of(task.model, edge), found(sides))
-                               .remedy("give a larger size"));
+                               .remedy("use a larger 'size'"));
     }
     const auto bends = static_cast<int>(std::ceil(by_turn - kPartOfSide));
     piece.count = std::max({1, static_cast<int>(std::lround(sides)), bends});

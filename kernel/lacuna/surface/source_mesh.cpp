@@ -263,7 +263,7 @@ private:
                                        "the boundary layers of {} along {} of {} fold near {} at a height of "
                                        "{:.4g}, where there is only room for {:.4g}",
                                        wall, along, in, place, needed(finding.asked), found(finding.found))
-                                   .remedy("use fewer or thinner rows, or a smaller size"));
+                                   .remedy("use fewer or thinner rows, or a smaller 'size'"));
         case Why::off_height:
             throw NotSweepable(
                 Message("surface.layers_ends",

@@ -196,7 +196,7 @@ private:
                 throw NotSweepable(Message("surface.wall_edge", "{} and {} require the same column of nodes",
                                            entity_of(model, q.line ? p.edge : q.edge),
                                            entity_of(model, q.line ? q.edge : p.edge))
-                                       .remedy("use a smaller size"));
+                                       .remedy("use a smaller 'size'"));
             }
         }
         return node;

@@ -95,7 +95,7 @@ void check(const LayerSpec& spec)
             Message("sweep.layers",
                     "sweep: option 'layers' must be at least {}, or 0 for an automatic number, found {}",
                     needed(1), found(spec.count))
-                .remedy("set layers to a number or to a list of heights"));
+                .remedy("set 'layers' to a number or to a list of heights"));
     }
     if (!(spec.bias > 0) || !std::isfinite(spec.bias)) refuse("bias", "a finite number above 0", spec.bias);
 }

@@ -280,7 +280,7 @@ void EdgeCounts::refuse_rows(const RowsHere& there, std::size_t m, FaceId face, 
                                "{} of {}, but differ",
                                entity_in(other, there.face), other.region, entity_in(own, face), own.region,
                                entity_in(own, edges_[e].edge), own.region)
-                           .remedy("give both faces the same boundary_layers table"));
+                           .remedy("give both faces the same table of 'boundary_layers'"));
 }
 
 std::pair<int, double> EdgeCounts::beside_rows(std::size_t e) const
@@ -408,7 +408,7 @@ void EdgeCounts::count()
         if (fresh || layers_asked(found->second) == layers_asked(m)) continue;
         throw NotSweepable(Message("assembly.layers",
                                    "{} and {} lie side by side and are swept in the same direction, so they "
-                                   "need equal layers, but {} and {} are asked for",
+                                   "need equal numbers of layers, but {} and {} are requested",
                                    a.region, b.region, lacuna::found(layers_asked(found->second)),
                                    lacuna::found(layers_asked(m)))
                                .remedy("ask for the same number in both"));

@@ -233,7 +233,7 @@ void require_volume(const Fidelity& fidelity, int layers)
                 "is up to {:.2g} away from {}, at {}",
                 found(100 * std::abs(off)), off < 0 ? "less" : "more", needed(100 * kMostOfVolume),
                 found(worst->max_distance), worst->entity, at_place(worst->place))
-            .remedy("use more than {} layers or a smaller 'size', or allow the distance with max_deviation",
+            .remedy("use more than {} layers or a smaller 'size', or allow the distance with 'max_deviation'",
                     found(layers)));
 }
 

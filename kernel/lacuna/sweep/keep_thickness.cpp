@@ -277,7 +277,7 @@ private:
                                        "{}: their nodes have no room to move, or are given",
                                        entity_of(model_, there.face), found(there.off_found),
                                        needed(there.off_asked), place_in_short(there.where))
-                                   .remedy("use fewer or thinner rows, or a smaller size"));
+                                   .remedy("use fewer or thinner rows, or a smaller 'size'"));
         }
         lines.push_back(
             formatted("boundary layers of {}: {} {}, the first {:.2g} to {:.2g} thick ({:.2g} asked), "

@@ -191,10 +191,12 @@ std::vector<double> through_corners(const std::vector<double>& heights, const st
 {
     const std::size_t layers = heights.size() - 1, parts = levels.size() - 1;
     if (layers < parts)
-        throw NotSweepable(Message("sweep.path_layers",
-                                   "the path has {} corners, so {} layers or more are needed, found {}",
-                                   parts - 1, needed(parts), found(layers))
-                               .remedy("leave out 'layers', or give a smooth path as a function"));
+        throw NotSweepable(
+            Message("sweep.path_layers",
+                    "every part of the path, from corner to corner, needs a layer: at least {} are "
+                    "needed, found {}",
+                    needed(parts), found(layers))
+                .remedy("leave out 'layers', or give a smooth path as a function"));
     std::vector<double> moved{0};
     std::size_t below = 0;
     for (std::size_t j = 1; j <= parts; ++j) {

@@ -58,7 +58,7 @@ void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mes
                 "{} {} not valid at order 2: the Jacobian is not positive everywhere in {} (layer {} of {}). "
                 "Its skin is straight",
                 count, cells, own, layer, mesh.layers)
-                .remedy("try a smaller size, or use order = 1"));
+                .remedy("use a smaller 'size', or order = 1"));
     Argument face = "the skin";
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);

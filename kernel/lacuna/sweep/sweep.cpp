@@ -61,7 +61,7 @@ void raise_order(const OpenVolume& shape, ProvedSweep& result, const SweepOption
         throw NotSweepable(Message("quality.below_limit",
                                    "at order 2 the smallest scaled Jacobian is {}, below the limit of {}",
                                    found(quality.min_scaled_jacobian), needed(options.min_scaled_jacobian))
-                               .remedy("use a smaller size, or order = 1"));
+                               .remedy("use a smaller 'size', or order = 1"));
     }
 }
 

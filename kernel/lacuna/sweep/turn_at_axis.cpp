@@ -115,7 +115,7 @@ private:
         const LayerSpec& spec = options_.layers;
         if (!spec.heights.empty() || spec.bias != 1)
             throw InvalidInput(
-                Message("sweep.axis_layers", "layers around an axis with wedges have equal angles")
+                Message("sweep.axis_layers", "if wedges meet at the axis, all layers have equal angles")
                     .remedy("give only their number"));
         const double turn = std::abs(turn_.angle);
         const int least = static_cast<int>(std::ceil(kLeastPerTurn * turn / kFullTurn - kSamePlace));
