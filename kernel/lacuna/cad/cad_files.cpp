@@ -24,7 +24,7 @@ using io::ending_of;
 
 namespace {
 
-constexpr std::size_t kHead = 4096; // number of bytes at the beginning by which the format is recognised
+constexpr std::size_t kHead = 4096; // number of leading bytes from which the format is recognised
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 /// Longest script that is parsed [bytes]; larger than anything written by hand or by Gmsh.
 constexpr std::size_t kLongestScript = std::size_t{64} << 20;

@@ -24,7 +24,7 @@ bool collinear(std::span<const Vec3> points, double tolerance)
     });
 }
 
-/// Whether a void edge is a polyline of a source that was moved along a path and kept its kinks.
+/// Whether a void edge is a copy of a polyline of the source, moved along a path with all its kinks.
 bool is_moved_polyline(const Model& model, EdgeId edge)
 {
     return std::ranges::any_of(model.uses_of_edge(edge), [&](const FaceUse& use) {

@@ -10,12 +10,12 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Number of points per request. With this number, the overhead of a request is negligible, and cancelling a
-/// call, or a request of another thread, takes effect within 0.1 s. Measured on a million points of a sphere,
-/// for which requests of 100,000 points are slower.
+/// Number of points per request. With this number, the overhead of a request is negligible, a call can be
+/// cancelled within 0.1 s, and a request of another thread waits no longer than that. Measured on a million
+/// points of a sphere, for which requests of 100,000 points are slower.
 constexpr std::size_t kAtOnce = 20'000;
 /// Time that a request for points may continue after it is cancelled [s]. If the request ends within this
-/// time, the process and the models it holds need not be killed.
+/// time, the process is not killed and keeps the models that it holds.
 constexpr double kGrace = 0.3;
 
 /// Ask the process that holds a face or curve for points, `kAtOnce` at a time. Overwrites the points and, on

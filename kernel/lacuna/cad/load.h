@@ -5,11 +5,11 @@
 // file, tetrahedra or quads.
 //
 // Where to change things:
-//   model of what the process read       load.cpp
+//   a model from the process's reply     load.cpp
 //   which files are opened; GEO scripts  cad_files.cpp, script.cpp
 //   the process: start, limits, end      worker.cpp; where it is found: worker_program.cpp
 //   exact curves and surfaces            exact_geometry.cpp
-//   writing STEP or BREP                 write_cad.cpp; what the solid needs: solid_plan.cpp
+//   writing STEP or BREP                 write_cad.cpp; plan of the solid: solid_plan.cpp
 //   splines of void faces and edges      void_patch.cpp, edge_shape.cpp, spline_patch.cpp
 //   tetrahedra inside a skin             fill_skin.cpp; pyramids on its quads: pyramid_layer.cpp
 //   quads by Gmsh                        recombine.cpp
@@ -44,7 +44,7 @@ using io::LoadOptions;
 /// only files of its own folder. Other formats do not need the process.
 /// @param limits  limits of the CAD process.
 /// @throw InvalidInput  as for io::load_facets(); a file does not have the CAD format of its extension; or a
-///        script does more than make geometry ("cad.script"). Names the file.
+///        script has a forbidden command ("cad.script"). Names the file.
 /// @throw BackendError  an error of Gmsh, with the name of the file; or the CAD process ended
 ///        ("cad.worker_ended", "cad.time_limit", "cad.memory_limit") or was not found ("cad.no_worker").
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options = {},

@@ -20,13 +20,13 @@ constexpr std::array kRefused{
     Word{"System", "runs a command"},       Word{"OnelabRun", "runs a program"},
     Word{"OnelabAction", "runs a program"}, Word{"CreateOverlay", "writes files"},
 };
-/// Commands that write files or mesh instead of making geometry, each between blanks.
+/// Commands that write files or generate a mesh instead of geometry. Words are between blanks.
 constexpr std::string_view kSkipped =
     " Save Print CreateFile Plugin Mesh Remesh RefineMesh OptimizeMesh AdaptMesh RelocateMesh RecombineMesh "
     "TransformMesh SetOrder PartitionMesh UnpartitionMesh RenumberMeshNodes RenumberMeshElements ";
 /// Words that begin and end blocks of commands that may run several times or never. Words are between blanks.
 constexpr std::string_view kBegins = " If For Macro Function ", kEnds = " EndIf EndFor Return ";
-/// Commands that are followed by a file name, each between blanks.
+/// Commands that are followed by a file name. Words are between blanks.
 constexpr std::string_view kFiles = " Include Merge MergeFile ShapeFromFile ListFromFile ";
 
 class Scanner {

@@ -30,8 +30,8 @@ constexpr double kMinCellsOfFace = 100;
 /// Limit on the number of times that a face's boundary is divided twice as finely because it intersects
 /// itself.
 constexpr int kDivisions = 6;
-/// Limit on the points of all edges after refinement, and so on time and memory: each face is triangulated
-/// over its boundary points.
+/// Limit on the points of all edges after refinement. It also limits time and memory, because each face is
+/// triangulated over its boundary points.
 constexpr std::size_t kMostDivided = 400'000;
 
 void import_file(Session& session, const OpenedFile& file)

@@ -164,7 +164,7 @@ private:
     {
         // By vertex: whether it is the end of an edge that meets the plane.
         std::vector<char> joined(model_.vertices.size(), 0);
-        // Edges near the plane, with the middle of their segment nearest to it.
+        // Edges near the plane, each with the midpoint of the segment that is nearest to the plane.
         std::vector<std::pair<EdgeId, Vec3>> near;
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             const Edge& edge = model_.edges[e];

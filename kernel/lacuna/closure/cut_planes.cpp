@@ -38,9 +38,9 @@ std::optional<Vec3> straight_along(const Model& model, EdgeId edge)
     return chord.stableNormalized();
 }
 
-/// The direction in which a sweep may have both faces at an edge in one end, such as a flat face with a
-/// conical hollow: the normal of a flat face. Empty if there is none, or if the other face is as steep as a
-/// wall.
+/// The direction of a sweep for which both faces at an edge can belong to one end, such as a flat face with a
+/// conical hollow: the normal of the flat face. Empty if neither face is flat, or if the other face is as
+/// steep as a wall.
 std::optional<Vec3> across_hollow(const Model& model, EdgeId edge)
 {
     const std::span<const FaceUse> uses = model.uses_of_edge(edge);

@@ -136,7 +136,8 @@ std::vector<StepPiece> finished(std::vector<StepPiece> parts, std::size_t most, 
 }
 
 /// Cut a volume along an edge between coplanar faces, perpendicular to these faces; an earlier cut ended at
-/// such an edge. The parts must have ends, or are divided at their middles. Empty if no cut gives such parts.
+/// such an edge. A part without ends is divided at its middle. Empty if no cut gives parts that can be swept
+/// or divided in this way.
 std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_t most,
                                             const CanSweep& can_sweep, const RunContext& context)
 {
@@ -351,8 +352,7 @@ std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, s
 class Cutter {
 public:
     /// @param can_sweep  whether a part can be swept
-    /// @param may_step  whether a part that cannot usefully be cut further can be swept, if its ends may have
-    ///         steps
+    /// @param may_step  as `can_sweep`, for a part that no further cut improves: its ends may have steps
     /// @param can_sweep_block  whether a block of a divided part can be swept
     /// @param least  the least distance between a cut and an edge beside it
     Cutter(const CanSweep& can_sweep, const CanSweep& may_step, const CanSweep& can_sweep_block, double least,
@@ -431,8 +431,8 @@ void set_ends_along(OpenVolume& volume, const Vec3& axis)
     }
 }
 
-/// The volume with ends along an axis (`set_ends_along()`) and divided rounds at their rims. The first axis
-/// along which the volume has rounds and can be swept is taken; empty if there is none.
+/// The volume with ends along an axis (`set_ends_along()`), and with the rounds at their rims divided. The
+/// axis is the first along which the volume has rounds and can be swept; empty if there is none.
 std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const CanSweep& can_sweep,
                                               const RunContext& context)
 {
@@ -450,8 +450,8 @@ std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const Ca
     return std::nullopt;
 }
 
-/// Cut a volume at the steps of its ends along an axis (`set_ends_along()`), for example packing foam around
-/// a tilted product. Empty if no axis gives pieces that can be swept.
+/// Cut a volume at the steps of its ends along an axis (`set_ends_along()`). Example: foam around a tilted
+/// product. Empty if no axis gives pieces that can be swept.
 std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
                                     const RunContext& context)
 {

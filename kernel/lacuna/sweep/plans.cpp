@@ -117,7 +117,7 @@ std::string in_words(const Plan& plan, const OpenVolume& volume)
 {
     std::string words = formatted("swept from the {}", end_of(volume, plan.turned));
     if (plan.outline == Outline::mean) words += ", laid out between the outlines of both ends";
-    if (plan.turning == surface::Turning::together) words += ", its loops turned as one body";
+    if (plan.turning == surface::Turning::together) words += ", its loops rotated together";
     if (plan.wedges) words += ", with wedges";
     return words + formatted(", {} sides for a full turn", plan.per_turn);
 }

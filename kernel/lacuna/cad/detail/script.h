@@ -13,7 +13,7 @@ struct ScriptFile {
     int line = 0;
 };
 
-/// A command of a Gmsh script that does not make geometry: bytes [begin, end) of the text.
+/// A command that is removed from a Gmsh script: bytes [begin, end) of the text.
 struct SkippedCommand {
     std::string word;
     int line = 0;
@@ -23,7 +23,7 @@ struct SkippedCommand {
 /// Result of `look_through_script()`: the files that a script reads, and the commands to remove from it.
 struct ScriptContent {
     std::vector<ScriptFile> files;
-    /// In order: commands that write files, run plugins or mesh, and everything from `Exit` on.
+    /// In order: commands that write files, run plugins or generate a mesh, and everything from `Exit` on.
     std::vector<SkippedCommand> skipped;
 };
 

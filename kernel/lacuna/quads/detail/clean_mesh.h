@@ -34,8 +34,8 @@ public:
     [[nodiscard]] const QuadNet& net() const { return net_; }
     [[nodiscard]] const std::vector<Vec2>& points() const { return points_; }
     [[nodiscard]] const Vec2& at(Index p) const { return points_[index(p)]; }
-    /// Ideal number of quads at a point: four inside; on the boundary, the number of right angles that fit
-    /// best in the point's angle.
+    /// Ideal valence of a point: 4 inside; on the boundary, the number of right angles that is nearest to the
+    /// point's angle.
     [[nodiscard]] int ideal_valence(Index p) const { return ideal_[index(p)]; }
     [[nodiscard]] bool is_irregular(Index p) const
     {
@@ -48,7 +48,7 @@ public:
         return (static_cast<std::uint64_t>(q) << 32) + version_[index(q)] + 1;
     }
 
-    /// Remove doublets: merge the two quads at every interior point of valence two.
+    /// Remove doublets: delete each interior point of valence 2, so that its two quads become one.
     void remove_doublets();
     Index add_point(const Vec2& position);
     void move(Index p, const Vec2& position) { points_[index(p)] = position; }

@@ -13,7 +13,7 @@ namespace lacuna::quads {
 using geometry::cross;
 using geometry::turn_between;
 
-/// Number of quads that suit an angle: the nearest multiple of a right angle, at least one.
+/// Number of quads that suits an angle: the number of right angles nearest to it, at least one.
 inline int quads_in(double angle) { return std::max(1, static_cast<int>(angle / kRightAngle + 0.5)); }
 
 /// Sine of a corner; 0 if one of its sides has no length.

@@ -16,7 +16,7 @@ namespace lacuna::quads {
 ///    are measured relative to circles around a hole, or to the region's main direction.
 /// 2. Where the headings turn but the boundary does not, the turn is soft: one to three rows of quads are
 ///    placed along the boundary up to the next corners, and the grid turns behind these rows. The grid then
-///    has a node of three quads where the region bulges, and a node of five quads where the region is bent
+///    has a node of valence 3 where the region bulges, and a node of valence 5 where the region is bent
 ///    inward. There are no other irregular nodes, so their number is the smallest that the boundary's corners
 ///    allow.
 /// 3. Soft turns are moved along the loop until the loop closes in the grid. If that is not enough, other

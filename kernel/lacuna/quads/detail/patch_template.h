@@ -75,7 +75,7 @@ bool can_fill(const SideCounts& counts);
 
 /// Fill a loop of two to six corners with few irregular nodes.
 ///
-///      3 or 5 sides: a grid at every corner, around one node of three or five quads.
+///      3 or 5 sides: a grid at every corner, around one node of valence 3 or 5.
 ///      4 sides, opposite ones equal: a grid.
 ///      4 sides, opposite ones unequal, without a cut: some columns turn towards the longer of the
 ///          two neighbouring sides, in one or both directions. Two or four irregular nodes, near the

@@ -128,7 +128,7 @@ inline int badness(const std::array<int, 2>& excess) { return excess[0] * excess
 bool close_pattern_loop(PatternLoop& loop, int period);
 
 /// Make a closed round loop one column narrower and one row higher in the grid, by moving its turns.
-/// @return  false if the turns cannot be moved so.
+/// @return  false if the turns cannot be moved in this way.
 bool trade_column_for_row(PatternLoop& loop);
 
 /// The loop's positions in the grid, from (0, 0).

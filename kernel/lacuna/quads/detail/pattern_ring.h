@@ -46,8 +46,8 @@ bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows);
 /// The first row has as many quads as the loop has sides, so no irregular node lies on the boundary. Each
 /// further row turns at `corners` evenly spaced nodes; the last row may turn at fewer nodes. A turn that is
 /// an end (one quad) removes two sides; a turn that is a corner (three quads) adds two sides. The turns of
-/// successive rows lie above each other. Each such column of turns contains one node of three quads and one
-/// node of five quads. The nodes of each row are evenly spaced.
+/// successive rows lie above each other. Each such column of turns contains one node of valence 3 and one
+/// node of valence 5. The nodes of each row are evenly spaced.
 /// @param by  even number of sides to add (> 0) or remove (< 0), at least twice `corners`.
 /// @return false if `by` or `corners` is not allowed, if turns would be less than three sides apart, or if a
 ///         row would have fewer than three nodes.

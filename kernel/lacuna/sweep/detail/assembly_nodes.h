@@ -18,7 +18,7 @@ namespace lacuna::sweep {
 void number_nodes(SweptAssembly& assembly);
 
 /// Check that no node on the borders of a part's faces lies inside a side of another part. Volumes that touch
-/// only along an edge share no face whose meshes would have to match.
+/// only along an edge need this check, because they share no face on which their meshes are compared.
 /// @throw NotSweepable "assembly.hanging_node"
 void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const AssemblyMember> members);
 

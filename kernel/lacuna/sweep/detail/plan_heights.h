@@ -27,8 +27,8 @@ struct PlannedHeights {
 /// as many as the columns' bends require at `curvature` per full turn. If the size varies along the sweep,
 /// the layers divide the cumulative number of sides evenly, averaged over the columns. Boundary layers of the
 /// ends come first and last; the other layers share the remaining length.
-/// @param asked  heights that follow from a requested count or from requested heights, from the source;
-///         empty: neither is requested.
+/// @param asked  requested heights, or those of a requested number of layers, counted from the source; empty:
+///         neither is requested.
 /// @param sizes  sizes of the source's quads, and the number of layers that bends of the walls require.
 /// @param least  minimum number of layers for the walls.
 /// @throw InvalidInput  there are too many layers to number, or boundary layers of ends are combined with

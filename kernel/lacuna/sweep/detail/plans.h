@@ -43,7 +43,7 @@ struct Plan {
 std::vector<Plan> plans(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                         const RunContext& context);
 
-/// The plan in words for reports and errors: "swept from the target, its loops turned as one body, 12 sides
+/// The plan in words for reports and errors: "swept from the target, its loops rotated together, 12 sides
 /// for a full turn".
 std::string in_words(const Plan& plan, const topology::OpenVolume& volume);
 

@@ -21,8 +21,8 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
 /// As `mesher_of()`, for regions that may have an odd number of sides.
 quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
 
-/// Reduce the requested or default size of a source where its faces are curved or narrow. Narrow places count
-/// only where they do not ask for too many quads by default.
+/// Reduce the requested or default size of a source where its faces are curved or narrow. The default number
+/// of quads across narrow places is dropped if it would give too many quads.
 /// @param size  `asked` and `by_default` are read, the sizes by shape are set.
 void reduce_by_shape(const topology::OpenVolume& volume, const SweepOptions& options, SourceSize& size);
 
