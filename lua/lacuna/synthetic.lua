@@ -91,7 +91,7 @@ local function read_drop(call, drop, names)
       fail(call, "option 'drop[%d]' must be the name of a face, found %s", i, internal.found(name))
     end
     if not known[name] then
-      fail(call, "option 'drop' names \"%s\", which is no face of this volume; the nearest is \"%s\". "
+      fail(call, "option 'drop' names \"%s\", which is not a face of this volume; the nearest is \"%s\". "
           .. "The faces are: %s",
            name, internal.nearest(name, names), table.concat(names, ", "))
     end

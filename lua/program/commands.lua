@@ -133,7 +133,7 @@ local function value_of(key, text)
   if text == "true" or text == "false" then return text == "true" end
   if text:find "^{" then
     local read, why = load("return " .. text, "=" .. key, "t", {})
-    return read and read() or error(("%s=%s is no table: %s"):format(key, text, why), 0)
+    return read and read() or error(("%s=%s is not a table: %s"):format(key, text, why), 0)
   end
   if not text:find "," then return text end
   local list = {}

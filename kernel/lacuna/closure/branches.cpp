@@ -89,7 +89,7 @@ public:
     Branching run()
     {
         find_lines();
-        // Remove lines that are no mouths. The regions on both sides of such a line become one.
+        // Remove lines that are not mouths. The regions on both sides of such a line become one.
         for (bool again = true; again;) {
             find_regions();
             again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
@@ -153,7 +153,7 @@ private:
         }
     }
 
-    /// Decide which side of a mouth is the main body. @return false if the line is no mouth.
+    /// Decide which side of a mouth is the main body. @return false if the line is not a mouth.
     bool set_sides(Mouth& mouth)
     {
         const std::span<const FaceUse> users = model_.uses_of_edge(mouth.edges.front());
@@ -172,7 +172,7 @@ private:
         const Vec3 centre = geometry::mean_point(rim);
         const Vec3 normal = geometry::newell_vector(rim).normalized();
         // If the normal of the line is parallel to the main body's axis, the section of the body changes
-        // there; the line is no mouth.
+        // there; the line is not a mouth.
         const std::vector<Vec3>& ends = result_.ends[mouth.host];
         const Vec3 way = ends.back() - ends.front();
         if (ends.size() == 2 && way.cross(normal).norm() < kAlongAxis * way.norm()) return false;

@@ -159,8 +159,8 @@ bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
     return false;
 }
 
-/// The ends of a groove: planar runs of a loop with no given face in their plane. Two straight edges are no
-/// end, because they are always coplanar. The side of a ring sector is no end either (see `is_of_ring()`).
+/// The ends of a groove: planar runs of a loop with no given face in their plane. Two straight edges are not
+/// an end, because they are always coplanar; nor is the side of a ring sector (see `is_of_ring()`).
 std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vector<std::size_t>& run)
 {
     const std::size_t uses = rim.uses.size();

@@ -294,7 +294,7 @@ private:
         const bool turned = area.dot(across_.normal) < 0;
         bool first = true;
         for (std::size_t outer = 0; outer < rings.size(); ++outer) {
-            // The inside of a hole of the face is no region.
+            // The inside of a hole of the face is not a region.
             if (outer < given && parents[outer] != rings.size()) continue;
             Outline outline;
             outline.add_loop(rings[outer].flat, rings[outer].points);

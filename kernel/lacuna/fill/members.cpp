@@ -39,7 +39,7 @@ struct Part {
     Volume volume;
     std::unique_ptr<KeptMesh> kept;
     bool left_out = false;            ///< left out of the sweep; options may still name its faces
-    const Volume* piece_of = nullptr; ///< volume that this part is a piece of; null: it is no piece
+    const Volume* piece_of = nullptr; ///< volume that this part is a piece of; null: it is not a piece
     std::string whole{};              ///< name of that volume
     std::size_t glue = 0;             ///< as in `sweep::AssemblyMember`
 };

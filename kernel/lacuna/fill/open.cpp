@@ -46,7 +46,7 @@ std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunC
     if (found.of_cavity)
         reasons.emplace_back("the given end lies in a cavity of a solid, whose other faces are the walls");
     for (std::size_t i = 0; i < found.left_out.size(); ++i) {
-        reasons.push_back(formatted("{} is no wall, because two faces of the volume already use {}",
+        reasons.push_back(formatted("{} is not a wall, because two faces of the volume already use {}",
                                     entity_of(model, found.left_out[i]), entity_of(model, found.taken[i])));
     }
     return reasons;

@@ -114,7 +114,7 @@ void take_cells(const ToFill& what, const surface::SkinMesh& skin, mesh::TetMesh
     for (mesh::SkinPatch& patch : part.patches) patch.groups = groups_in_assembly(name, patch.groups);
 }
 
-/// @throw NotSweepable  the cells are no valid mesh, or their skin differs from the one to be filled
+/// @throw NotSweepable  the cells are not a valid mesh, or their skin differs from the one to be filled
 void prove(FilledTets& tets, const RunContext& context)
 {
     quality::CellsProof proved = quality::prove_cells(tets.mesh.nodes, tets.mesh.cells, context);

@@ -26,7 +26,7 @@ std::vector<double> angles_at_points(std::span<const Vec3> points, std::span<con
 std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles)
 {
     // At a tip, the angles sum to at least this much less than a full turn (see tips.h). If there are more
-    // tips than the limit, the facets are coarse, and the points are no tips of cones.
+    // tips than the limit, the facets are coarse, and the points are not tips of cones.
     constexpr double kLack = 0.2 * std::numbers::pi;
     constexpr std::size_t kMostTips = 64;
     const std::vector<double> angle = angles_at_points(points, triangles);

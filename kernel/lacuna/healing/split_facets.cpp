@@ -84,7 +84,7 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vect
 }
 
 /// The faces of a noisy surface, separated by the mean normals of patches (`patch_normals()`). A region with
-/// fewer facets than a patch is no face of its own; it is added to an adjacent face.
+/// fewer facets than a patch is not a face of its own; it is added to an adjacent face.
 Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature, const RunContext& context)
 {
     std::vector<Vec3> normal = patch_normals(facets, sides, context);

@@ -404,8 +404,8 @@ private:
         return Quad{row[0], row[1], row[2], last};
     }
 
-    /// Call `take(numbers)` for each data line of a set after its head. A word that is no number is passed as
-    /// -1.
+    /// Call `take(numbers)` for each data line of a set after its head. Words that are not numbers are passed
+    /// as -1.
     template <class Take>
     void each_row(const SetCard& card, const Take& take) const
     {

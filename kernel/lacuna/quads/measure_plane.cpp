@@ -59,7 +59,7 @@ std::string find_bad_corner(const PlanarQuads& mesh)
         const Quad& quad = mesh.quads[q];
         for (std::size_t k = 0; k < 4; ++k) {
             if (quad[k] < 0 || index(quad[k]) >= mesh.points.size())
-                return formatted("quad {} has corner {}, which is no point", q, quad[k]);
+                return formatted("quad {} has corner {}, which is not a point", q, quad[k]);
             for (std::size_t j = 0; j < k; ++j) {
                 if (quad[j] == quad[k]) return formatted("quad {} has corner {} twice", q, quad[k]);
             }

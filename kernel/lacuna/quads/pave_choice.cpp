@@ -140,7 +140,7 @@ bool reaches(const Limits& limits, const Attempt& attempt, const PlanarRegion& r
            quality.size_share() > limits.of_size;
 }
 
-/// Whether a grid is so good that no further attempt is needed. Meshes that are no grid would have more
+/// Whether a grid is so good that no further attempt is needed. Meshes that are not a grid would have more
 /// irregular nodes.
 bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_size)
 {

@@ -64,8 +64,8 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
 }
 
 /// Hexahedra cannot be swept from a given mesh of quads and triangles. If the style does not keep given
-/// meshes, add a note that the mesh of the face is not kept. Triangles of a face without quads are no mesh:
-/// they only define its shape.
+/// meshes, add a note that the mesh of the face is not kept. Triangles of a face without quads are not a
+/// mesh: they only define its shape.
 /// @throw NotSweepable  the face has a mesh of quads and triangles, and quads = "auto".
 void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
 {

@@ -97,7 +97,7 @@ public:
         std::vector<Vec3> points;
         std::vector<Triangle> triangles;
         for (const auto& [edge, count] : uses) {
-            if (count > 1) continue; // a seam is no boundary
+            if (count > 1) continue; // a seam is not a boundary
             const std::vector<Vec3> line = edge_line(model, edge);
             const std::vector<double> arc = geometry::arc_lengths(line);
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {

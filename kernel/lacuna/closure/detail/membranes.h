@@ -8,8 +8,8 @@
 namespace lacuna::closure {
 
 /// The membranes among some void faces. Membrane: a void face over a non-planar rim that does not determine
-/// the inside of the face. No membranes are four-sided faces, which are blended from side to side, and faces
-/// on a quadric that their rim determines, such as the mouth of a keyway on its shaft.
+/// the inside of the face. Four-sided faces are not membranes, because they are blended from side to side;
+/// nor are faces on a quadric that their rim determines, such as the mouth of a keyway on its shaft.
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 bool is_membrane(const topology::Model& model, FaceId face);
 

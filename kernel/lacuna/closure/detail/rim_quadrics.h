@@ -38,8 +38,8 @@ struct RimShapes {
     /// cylinders, cones and pairs of planes among these quadrics. Planes of given faces at the rim are
     /// excluded.
     std::vector<QuadricSheet> told;
-    /// If there are many quadrics, the sheets of the other cylinders among them. The rim does not tell on
-    /// which of these the face lies.
+    /// If there are many quadrics, the sheets of the other cylinders among them. The rim does not determine
+    /// on which of these the face lies.
     std::vector<QuadricSheet> possible;
 };
 

@@ -8,8 +8,8 @@
 
 namespace lacuna::closure {
 
-/// Give walls that meet an end smoothly the role of that end, and so on for walls that meet these walls
-/// smoothly.
+/// Give walls that meet an end smoothly the role of that end, then also walls that meet these walls smoothly,
+/// and so on.
 ///
 /// A cell between an end and a wall tangent to it would have an angle near 180°. An end is not extended in
 /// any of these cases:

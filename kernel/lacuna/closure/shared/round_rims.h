@@ -9,8 +9,8 @@ namespace lacuna::closure {
 /// Faces that may be rounds: walls only, or also faces of the ends, such as domes.
 enum class RoundsOf { walls, ends_and_walls };
 
-/// Whether a face without given quads is the whole skin of a product, not divided because it is smooth. Such
-/// a face has one rim; in places it is perpendicular to the axis, in others as steep as a wall.
+/// Whether a face without given quads is the smooth, undivided skin of a whole product. Such a face has one
+/// rim; in places it is perpendicular to the axis, in others as steep as a wall.
 /// @param axis  unit vector
 bool is_smooth_cap(const topology::Model& model, FaceId face, const Vec3& axis);
 

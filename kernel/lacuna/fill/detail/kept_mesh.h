@@ -26,7 +26,7 @@ struct KeptMesh {
     std::string region; ///< empty: the mesh has no name
     std::string material;
     std::string unit;
-    std::string whole;   ///< name of the volume that this mesh is a piece of; empty if it is no piece
+    std::string whole;   ///< name of the volume that this mesh is a piece of; empty if it is not a piece
     bool copied = false; ///< as in `FilledVolume`
     std::vector<io::ColumnSet> columns{}; ///< as in `FilledVolume`
     std::string turn_of;                  ///< for a piece of a full turn: region of the whole turn

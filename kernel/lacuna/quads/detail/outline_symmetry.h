@@ -49,7 +49,7 @@ struct Symmetry {
 /// if these are symmetries. It includes reflections only if the axis of one passes through the first node of
 /// the outer loop.
 /// @note  O(nodes) for each node of the outer loop that has the largest distance from the centre. Most of
-///         these candidates are no symmetries and are rejected at once.
+///         these candidates are not symmetries and are rejected at once.
 std::vector<Symmetry> outline_symmetries(const PlanarRegion& region);
 
 /// The part of a symmetric region between two adjacent mirror axes, or on one side of a single axis. The

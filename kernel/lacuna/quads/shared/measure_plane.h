@@ -110,7 +110,7 @@ int least_irregular(const PlanarRegion& region);
 
 /// The first reason, in words, why the quads are not a valid mesh of the region. Empty if they are valid.
 ///
-/// Checked: boundary points moved or missing; corners that are no points or occur twice; sides used by three
+/// Checked: boundary points moved or missing; corners that are not points or occur twice; sides used by three
 /// quads, or by two in the same direction; boundary sides that are not those of the loops; points without a
 /// quad; a mesh in several pieces or pinched at a point; corners that are not positive.
 std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region);

@@ -19,7 +19,7 @@ namespace lacuna::quads {
 /// @return number of symmetries of the mesh afterwards, including the identity. 1 if the mesh is unchanged:
 ///         it has no symmetry, or its least scaled Jacobian would fall by more than 0.01.
 /// @pre   `find_fault()` finds no fault.
-/// @note  Deterministic. At worst O(boundary nodes · quads); most candidates are no symmetries and are
+/// @note  Deterministic. At worst O(boundary nodes · quads); most candidates are not symmetries and are
 ///         rejected at once.
 std::size_t symmetrise(PlanarQuads& mesh, const PlanarRegion& region);
 

@@ -14,9 +14,9 @@ struct DefaultSize {
     std::string why;   ///< explanation for the user
 };
 
-/// Mean length of the facets' sides on the source's rims. If the nodes of an edge are not kept, its facets
-/// say how accurate the shape is, and not what mesh size is wanted. A side on such an edge therefore counts
-/// with at least a twentieth of the diagonal of the rims' bounding box.
+/// Mean length of the facets' sides on the source's rims. If the nodes of an edge are not kept, the length of
+/// its facets shows the accuracy of the shape, not the wanted mesh size. A side on such an edge is therefore
+/// taken to be at least a twentieth of the diagonal of the rims' bounding box.
 /// @note  O(points on the rims).
 DefaultSize default_size(const topology::OpenVolume& volume);
 
