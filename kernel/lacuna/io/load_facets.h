@@ -14,7 +14,7 @@
 //   faces of a mesh                            deck_facets.cpp
 //   options of writing                         mesh_file.cpp
 //   writer of a format                         <format>_writer.cpp, msh.cpp, vtk.cpp, dyna.cpp, med.cpp
-//   what writers see of meshes and decks       swept_view.cpp, deck_view.cpp; nodes: node_reader.cpp
+//   views of meshes and decks for writers      swept_view.cpp, deck_view.cpp; nodes: node_reader.cpp
 //   parallel writing; files that appear whole  sections.cpp, whole_file.cpp; folders: whole_folder.cpp
 //   facets of a sealed volume                  facets.cpp
 //   adding a mesh to a deck, to its sets       join_deck.cpp, mesh_deck.cpp, join_sets.cpp
