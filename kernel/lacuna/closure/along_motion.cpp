@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -34,8 +35,6 @@ constexpr int kProfileSteps = 128;
 /// Number of intervals at which a path given as a function is sampled. With this number, a path of five turns
 /// is reproduced to 1e-6 of the turns' radius.
 constexpr int kPathSteps = 1024;
-/// Number of samples for each chord of a CAD curve that is used as a path.
-constexpr int kCurveSteps = 8;
 
 // --- twist and scale ---------------------------------------------------------------------------------------
 
@@ -111,8 +110,8 @@ std::vector<Vec3> line_of(const Model& model, const Edge& edge)
     }
     std::vector<double> params;
     for (std::size_t i = 0; i + 1 < edge.params.size(); ++i)
-        for (int k = 0; k < kCurveSteps; ++k)
-            params.push_back(edge.params[i] + (edge.params[i + 1] - edge.params[i]) * k / kCurveSteps);
+        for (int k = 0; k < kChords; ++k)
+            params.push_back(edge.params[i] + (edge.params[i + 1] - edge.params[i]) * k / kChords);
     params.push_back(edge.params.back());
     points.resize(params.size());
     edge.curve->evaluate(params, points);
@@ -366,7 +365,6 @@ std::vector<Vec3> unit_offsets(const Model& model)
 void note_coarse_facets(const Model& model, const std::function<double(const Vec3&)>& thickness,
                         const std::vector<double>& at, const RunContext& context)
 {
-    constexpr double kShare = 0.01;
     double largest = 0, most = 0, taken = 0, wanted = 0;
     Vec3 worst = Vec3::Zero();
     for (const double value : at) largest = std::max(largest, std::abs(value));
@@ -380,7 +378,7 @@ void note_coarse_facets(const Model& model, const std::function<double(const Vec
             taken = linear, wanted = value, worst = middle;
         }
     }
-    if (most > kShare * largest)
+    if (most > kAlikeSizes * largest)
         log_line(context,
                  formatted("note: along: the thickness is linear between the corners of the source's "
                            "facets: at {} it is {:.3g}, where the function is {:.3g}; "
@@ -506,17 +504,16 @@ struct MotionMaker {
     {
         const Vec3 axis = unit(along.direction, "axis");
         const double angle = along.angle * kDegree;
-        constexpr double kWhole = 360;
-        if (!(std::abs(along.angle) > 0) || std::abs(along.angle) > kWhole)
+        if (!(std::abs(along.angle) > 0) || std::abs(along.angle) > kDegreesPerTurn)
             throw InvalidInput(
                 "closure.along_angle",
                 "along: 'angle' is {} degrees; it must be other than 0 and at most {} either way",
-                found(along.angle), needed(kWhole));
+                found(along.angle), needed(kDegreesPerTurn));
         if (by.twist || by.scale)
             check_axis(swept.source.model, along.point, axis);
         else if (has_edges_on_axis(swept.source.model, along.point, axis))
             swept.on_axis = Along::Axis{along.point, axis, along.angle};
-        swept.full_turn = std::abs(along.angle) == kWhole;
+        swept.full_turn = std::abs(along.angle) == kDegreesPerTurn;
         if (swept.full_turn && (by.twist || by.scale))
             throw InvalidInput(Message("closure.along_full_turn",
                                        "along: a full turn ends on its source, which twist and scale change")

@@ -10,6 +10,8 @@
 #include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -31,26 +33,13 @@ using namespace topology;
 
 namespace {
 
-/// Least angle between walls at a mouth, as a turn towards the void [degrees]. It is larger than the angle
-/// between the facets of a bent wall, and smaller than the angle at an oblique branch.
-constexpr double kConcave = 15;
 /// Largest depth of a dip (the line across a mouth in which the cut faces meet, see `add_dip()`), as a share
 /// of the distance to the opposite wall. For equal tubes the dip then reaches the axis.
 constexpr double kDeepest = 0.5;
-/// Cosine of 30°. If the planes of two branches (see `planes_along()`) differ by less than this angle, only
-/// one of the planes is used. An edge at less than this angle to the axis counts as parallel to the axis. A
-/// higher cosine adds nearly equal planes; a lower one makes branches on different sides share a plane.
-constexpr double kSameSide = 0.87;
-/// Cosine of 44°. A face at the mouth is an end of the branch, not a wall, if the angle between its normal
-/// and the branch's direction is below this. The limit is about halfway between an end perpendicular to the
-/// branch (0°) and a wall along the branch (90°).
-constexpr double kAlongWay = 0.72;
 /// A plane along the main body is moved onto an edge across the main body's end if the distance is below this
 /// share of the widest mouth's width; a sliver would be left otherwise. A plane makes no new line on a wall
 /// where an edge is as near. A higher value moves the planes further from the centres of their mouths.
 constexpr double kBeside = 0.1;
-/// Number of chords of a dip, which is a parabola. The sag of a chord is 1/256 of the depth of the dip.
-constexpr int kChords = 16;
 
 /// A closed line of concave edges between a branch and its main body.
 struct Mouth {
@@ -105,7 +94,7 @@ private:
         geometry::UnionFind sets(model_.edges.size());
         std::vector<EdgeId> concave;
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (at_ends.contains(EdgeId(e)) || turns[e] < kConcave) continue;
+            if (at_ends.contains(EdgeId(e)) || turns[e] < kCreaseAngle / 2) continue;
             concave.emplace_back(e);
             for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
                 for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);
@@ -270,7 +259,7 @@ private:
         const Vec3 outward = way_out(mouth);
         for (const FaceId face : found_.faces[mouth.branch]) {
             const double facing = std::abs(face_area_vector(model, face).dot(outward));
-            if (!is_at(mouth, face) || facing <= kAlongWay * face_area(model, face)) continue;
+            if (!is_at(mouth, face) || facing <= kContinues * face_area(model, face)) continue;
             throw NotSweepable(
                 Message("closure.branches",
                         "the branch of {} on {} reaches beyond the side of the main body, because "
@@ -337,7 +326,7 @@ private:
             if (!(square.norm() > kAlongAxis * normal.norm())) return;
             Vec3 n = square.normalized();
             const bool known = std::ranges::any_of(planes, [&](const geometry::Plane& plane) {
-                return std::abs(plane.normal.dot(n)) > kSameSide;
+                return std::abs(plane.normal.dot(n)) > std::cos(kCreaseAngle * kDegree);
             });
             if (known) return;
             // Let the plane pass through an edge of the end that is near, so that no sliver is left beside
@@ -412,7 +401,7 @@ private:
             const std::vector<Index>& points = model[edge].points;
             for (std::size_t i = 0; i + 1 < points.size(); ++i) {
                 const Vec3 &a = model.at(points[i]), &b = model.at(points[i + 1]);
-                if (std::abs((b - a).dot(axis_)) < kSameSide * (b - a).norm()) continue;
+                if (std::abs((b - a).dot(axis_)) < kOneCurve * (b - a).norm()) continue;
                 const double f = std::clamp(fraction_along(middle, a, b), 0.0, 1.0);
                 if ((middle - ((1 - f) * a + f * b)).norm() <= near) return true;
             }

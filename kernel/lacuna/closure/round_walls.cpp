@@ -9,6 +9,7 @@
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -248,11 +249,10 @@ bool shift_inside(std::vector<Vec2>& hole, const std::vector<Vec2>& outer, doubl
 /// The triangulation of a part of a round wall that is unrolled: angle times radius, and height.
 geometry::Triangulation triangulate_unrolled(const Outline& outline, double step, const RunContext& context)
 {
-    constexpr double kFacets = 64; // largest number of facets along the diagonal of the outline
     Eigen::AlignedBox2d box;
     for (const Vec2& place : outline.flat) box.extend(place);
     geometry::TriangulateOptions fine;
-    fine.size = [size = std::max(step, box.diagonal().norm() / kFacets)](const Vec2&) { return size; };
+    fine.size = [size = std::max(step, box.diagonal().norm() / kFineChords)](const Vec2&) { return size; };
     return geometry::triangulate(outline.flat, outline.loops, fine, context);
 }
 

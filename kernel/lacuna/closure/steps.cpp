@@ -36,12 +36,6 @@ using namespace topology;
 
 namespace {
 
-/// An edge of an end's rim is at a step in two cases [degrees]: the skin turns towards the void by more than
-/// `kStep`; or it turns by less than `kStep` to either side, and the walls lead away from the opposite end at
-/// more than `kLeadsAway` to the end's plane. The second case is that of a divided round, where this angle is
-/// about 45°.
-constexpr double kStep = 45, kLeadsAway = 30;
-
 /// Each cut reduces the number of steps. More cuts in a row than this mean an error in the cutter.
 constexpr int kRounds = 64;
 
@@ -77,13 +71,14 @@ bool leads_away(const OpenVolume& volume, EdgeId edge, const Vec3& out)
             way += (up - up.dot(side) / side.squaredNorm() * side).stableNormalized();
         }
     }
-    return way.stableNormalized().dot(out) > std::sin(kLeadsAway * std::numbers::pi / 180);
+    return way.stableNormalized().dot(out) > std::sin(kCreaseAngle * kDegree);
 }
 
 Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& turns)
 {
     const Model& model = volume.model;
     Steps steps;
+    const double corner = 180 - kCornerBelow;
     const std::vector<FaceId> faces = volume.faces(end);
     if (faces.empty()) return steps;
     steps.parts = connected_parts(model, faces);
@@ -94,7 +89,9 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
             std::vector<FaceId> risers;
             for (const EdgeUse& use : rim.uses) {
                 const double turn = turns[use.edge.index()];
-                if (turn < kStep && !(turn > -kStep && leads_away(volume, use.edge, out))) {
+                // The edge is at a step if the skin turns towards the void, or, on a divided round, if the
+                // walls lead away from the opposite end.
+                if (turn < corner && !(turn > -corner && leads_away(volume, use.edge, out))) {
                     if (model.uses_of_edge(use.edge).size() > 1) ++onward;
                     continue;
                 }

@@ -6,6 +6,7 @@
 #include <lacuna/healing/shared/stitch.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/healing/detail/edge_track.h>
 #include <lacuna/healing/detail/loose_model.h>
@@ -21,10 +22,6 @@
 namespace lacuna::healing {
 
 namespace {
-
-/// Points on an exact curve merge if they are closer than this share of the shortest segment next to them.
-/// Otherwise the facets between them would be slivers.
-constexpr double kJoinOnCurve = 0.25;
 
 class Stitcher {
 public:
@@ -296,8 +293,8 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
         if (near > taken && near + 1 < edge.points.size()) {
             double radius = tolerance_;
             if (track(e).exact() && !keeps_mesh) {
-                radius = std::max(radius, kJoinOnCurve * std::min((at(near) - at(near - 1)).norm(),
-                                                                  (at(near + 1) - at(near)).norm()));
+                radius = std::max(radius, kOnePoint * std::min((at(near) - at(near - 1)).norm(),
+                                                               (at(near + 1) - at(near)).norm()));
             }
             if ((at(near) - model().at(model()[stop.vertex].point)).norm() <= radius)
                 stop.node = taken = near;
@@ -544,7 +541,7 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
             const double side = std::min(
                 {(at(points[i]) - at(points[i - 1])).norm(), (at(points[i + 1]) - at(points[i])).norm(),
                  (at(nodes[order[after]].point) - at(nodes[order[after - 1]].point)).norm()});
-            radius = std::max(radius, kJoinOnCurve * side);
+            radius = std::max(radius, kOnePoint * side);
         }
         const auto apart = [&](std::size_t k) { return (at(nodes[order[k]].point) - at(points[i])).norm(); };
         const std::size_t near = apart(after) < apart(after - 1) ? after : after - 1;

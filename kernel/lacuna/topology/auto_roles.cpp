@@ -24,12 +24,10 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Maximum cost of a bent end, cost of a candidate with one end, and cost of a candidate without ends. Rule
-/// of thumb: two flat ends are likelier than one end, one end is likelier than none, and any flat end is
-/// likelier than a bent end.
-constexpr double kBent = 1.0;
+/// Cost of a candidate with one end, and of steps at both ends. Rule of thumb: a sweep from one flat face
+/// falls into fewer pieces, two flat ends are likelier than one end, one end is likelier than none
+/// (`kNoEnd`), and any flat end is likelier than a bent end.
 constexpr double kOneEnd = 0.05;
-constexpr double kNoEnd = 0.1;
 /// Cost of a connected set of sharp wall edges that does not run from end to end, and cost of a window (a rim
 /// of the walls whose edges are all free). Rule of thumb: the shoulder of a stepped bore is more likely part
 /// of a stepped end than a wall.
@@ -44,8 +42,6 @@ constexpr double kStraight = 0.02;
 /// Cost of each doubling of the number of steps. Rule of thumb: a candidate with fewer steps is likelier, but
 /// a plate may have a hundred.
 constexpr double kStep = 0.01;
-/// Cost of steps at both ends. Rule of thumb: a sweep from one flat face falls into fewer pieces.
-constexpr double kBothSteps = 0.05;
 /// Number of faces listed for each role in a message.
 constexpr std::size_t kMostFaces = 12;
 
@@ -272,7 +268,7 @@ private:
         if (reading.step == kNoIndex) return 0;
         const SteppedEnds& ends = stepped_[reading.step];
         const auto patches = static_cast<double>(ends.source.size() + ends.target.size());
-        return kStep * std::log2(patches - 1) + (ends.source.size() > 1 ? kBothSteps : 0);
+        return kStep * std::log2(patches - 1) + (ends.source.size() > 1 ? kOneEnd : 0);
     }
 
     /// Cost of sharp edges between walls that do not run from end to end.
@@ -401,9 +397,9 @@ private:
 
     [[nodiscard]] static double bend(const SmoothPatch& end)
     {
-        // With the factor 4, a patch that bends by 90° (flatness 0.90) gets 40 % of the maximum cost, and a
-        // patch that bends by 180° gets the maximum.
-        return kBent * std::min(1.0, 4 * (1 - end.flatness));
+        // A patch that bends by 90° (flatness 0.90) costs 0.4, and one that bends by 180° costs 1: the unit
+        // of all costs.
+        return std::min(1.0, 4 * (1 - end.flatness));
     }
 
     /// Whether a patch can be the only end: it has neighbours on its whole rim.
