@@ -137,12 +137,11 @@ TEST_CASE("sections of any walls lie on their levels of a straight prism, as man
                                              .bend = bend,
                                              .drop = without(false, false, false, gone)})
                                     .open();
-            const auto sections = matching::cut_sections(volume, matching::side_lines(volume), 10);
+            const auto sections = matching::cut_sections(volume, matching::side_lines(volume));
             CAPTURE(bend);
             CAPTURE(gone.size());
-            REQUIRE(sections.levels.size() == 11);
             REQUIRE(!sections.levels.front().empty());
-            for (std::size_t k = 0; k < 11; ++k) {
+            for (std::size_t k = 0; k < sections.levels.size(); ++k) {
                 CHECK(sections.levels[k].size() == sections.levels[0].size());
                 // Where on the bend the section lies, by its own points.
                 Vec3 middle = Vec3::Zero();
@@ -193,7 +192,7 @@ TEST_CASE("a wall that is open at one level and closed at another has no section
     REQUIRE(model.faces.size() == 3);
     const OpenVolume volume = open_volume(model,
                                           {{FaceId(Index{0})}, {FaceId(Index{1})}, {FaceId(Index{2})}});
-    const auto sections = matching::cut_sections(volume, matching::side_lines(volume), 10);
+    const auto sections = matching::cut_sections(volume, matching::side_lines(volume));
     for (const auto& level : sections.levels) CHECK(level.empty());
 }
 

@@ -2,11 +2,13 @@
 #include <lacuna/cad/detail/cad_files.h>
 
 #include <lacuna/cad/detail/script.h>
+#include <lacuna/cad_protocol/shared/channel.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/io/load_facets.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -25,7 +27,6 @@ using io::ending_of;
 namespace {
 
 constexpr std::size_t kHead = 4096; // number of leading bytes from which the format is recognised
-constexpr std::size_t kBlock = std::size_t{1} << 20;
 /// Longest script that is parsed [bytes]; larger than anything written by hand or by Gmsh.
 constexpr std::size_t kLongestScript = std::size_t{64} << 20;
 /// Limit on the contents of a script: the script itself and the files that it includes or merges.
@@ -56,9 +57,9 @@ bool is_brep(const std::string& head)
 
 std::uint64_t digest_of(std::string_view bytes, std::uint64_t before)
 {
-    constexpr std::uint64_t kPrime = 0x100000001b3ULL;
-    const std::uint64_t mixed = (before ^ std::hash<std::string_view>()(bytes)) * kPrime;
-    return mixed ^ (mixed >> 32); // without this, low bits would not depend on the upper half of a word
+    const std::hash<std::string_view> hash;
+    const std::array<std::uint64_t, 2> both{before, hash(bytes)};
+    return hash({reinterpret_cast<const char*>(both.data()), sizeof(both)});
 }
 
 /// Whether Gmsh runs a merged file as a script.
@@ -86,7 +87,7 @@ void add_copy(CadFiles& files, const std::string& folder, const std::string& nam
             Message("cad.not_a_file", "{} is not a regular file", path).remedy("name a file on a disk"));
     Descriptor copy(::memfd_create("lacuna-cad input", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     if (!copy) fail(path, errno);
-    std::vector<char> block(kBlock);
+    std::vector<char> block(cad_protocol::kBlock);
     files.digest = digest_of(name, files.digest);
     std::uint64_t bytes = 0;
     for (;;) {

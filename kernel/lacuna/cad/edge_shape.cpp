@@ -2,6 +2,7 @@
 #include <lacuna/cad/detail/edge_shape.h>
 
 #include <lacuna/cad/detail/spline_patch.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/segment.h>
 #include <lacuna/geometry/shared/swept_surface.h>
@@ -13,9 +14,6 @@ namespace lacuna::cad {
 using namespace topology;
 
 namespace {
-
-/// Number of samples of an exact edge for each segment of its polyline, for measuring its arc length.
-constexpr std::size_t kParts = 16;
 
 bool collinear(std::span<const Vec3> points, double tolerance)
 {
@@ -55,8 +53,8 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
         kind_ = Kind::exact;
         curve_ = edge.curve;
         for (std::size_t i = 0; i + 1 < edge.params.size(); ++i) {
-            for (std::size_t k = 0; k < kParts; ++k) {
-                const double f = static_cast<double>(k) / kParts;
+            for (std::size_t k = 0; k < kChords; ++k) {
+                const double f = static_cast<double>(k) / kChords;
                 fine_params_.push_back((1 - f) * edge.params[i] + f * edge.params[i + 1]);
             }
         }
@@ -66,7 +64,7 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
         fine_shares_ = geometry::arc_lengths(fine);
         length_ = fine_shares_.back();
         divide_by_last(fine_shares_);
-        for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i] = fine_shares_[kParts * i];
+        for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i] = fine_shares_[kChords * i];
     } else if (collinear(points_, model.tolerance)) {
         kind_ = Kind::straight;
     } else if (edge.origin == Origin::made_void && !is_moved_polyline(model, id)) {

@@ -7,6 +7,7 @@
 #include <lacuna/cad/detail/worker.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -23,8 +24,6 @@ using mesh::TetMesh;
 
 namespace {
 
-/// Limit on the number of tetrahedra.
-constexpr double kMostTets = 1e7;
 /// Ratio of Gmsh's number of tetrahedra to the number of regular tetrahedra that have the skin's volume. The
 /// side of the regular tetrahedra is the mean longest side of the skin's triangles, weighted by area.
 /// Measured for balls of 1e3, 1e4 and 1e5 triangles: 0.79, 0.64 and 0.58.
@@ -135,7 +134,7 @@ double expected_tets(const std::vector<Vec3>& points, const std::vector<std::vec
 {
     throw NotSweepable(Message("cad.tet_count",
                                "the volume needs {:.3g} tetrahedra; at most {:.3g} are allowed", found(count),
-                               needed(kMostTets))
+                               needed(kMostCells))
                            .remedy("use a larger 'size'"));
 }
 
@@ -221,14 +220,14 @@ TetMesh fill_skin(const ClosedSkin& skin, const RunContext& context)
     const PyramidLayer layer = place_pyramids(skin, sides, context);
     const FillSkinRequest request{layer.points, split_into_shells(skin, layer, sides)};
     const double expected = expected_tets(request.points, request.shells);
-    if (!(expected <= kMostTets)) refuse_count(expected);
+    if (!(expected <= kMostCells)) refuse_count(expected);
 
     FillSkinReply reply = ask_worker(request, expected, words_for(skin), context);
     const std::size_t given = request.points.size();
     if (reply.points.size() < given ||
         !std::equal(request.points.begin(), request.points.end(), reply.points.begin()))
         throw BackendError("cad.protocol", "the CAD process moved nodes of the skin");
-    if (static_cast<double>(reply.tets.size()) > kMostTets)
+    if (static_cast<double>(reply.tets.size()) > kMostCells)
         refuse_count(static_cast<double>(reply.tets.size()));
     check_filled(request.shells, reply, given, context);
 

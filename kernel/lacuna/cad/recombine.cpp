@@ -53,8 +53,7 @@ SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBo
     };
     raster.columns = lines(box.sizes().x());
     const int columns = raster.columns, rows = lines(box.sizes().y());
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    raster.sizes.assign(index(columns) * index(rows), kUnknown);
+    raster.sizes.assign(index(columns) * index(rows), std::numeric_limits<double>::quiet_NaN());
     const auto at = [&](int i, int j) -> double& {
         return raster.sizes[index(j) * index(columns) + index(i)];
     };

@@ -4,6 +4,7 @@
 #include <lacuna/cad/detail/edge_shape.h>
 #include <lacuna/cad/detail/void_patch.h>
 #include <lacuna/closure/shared/void_geometry.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/swept_surface.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -21,8 +22,6 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Precision of splines relative to the diagonal: a hundredth of the default tolerance.
-constexpr double kPrecision = 1e-8;
 /// Precision of walls and edges that a known motion makes, relative to the diagonal. Their shapes are exact,
 /// so a smaller deviation makes sense: a spline of this precision through a circle encloses the circle's area
 /// to 1e-10.
@@ -94,7 +93,7 @@ public:
     {
         Eigen::AlignedBox3d box;
         for (const Vec3& p : model_.points) box.extend(p);
-        precision_ = kPrecision * box.diagonal().norm();
+        precision_ = kSamePlace * box.diagonal().norm();
         motion_precision_ = kMotionPrecision * box.diagonal().norm();
         plan_.request.points = model_.points;
         plan_.request.diagonal = model_.diagonal;

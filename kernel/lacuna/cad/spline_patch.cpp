@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/cad/detail/spline_patch.h>
 
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/dense_solve.h>
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace {
 /// Degree of splines: their error falls with the sixth power of the interval. Helices with 51 intervals in
 /// each turn enclose their volume to 8e-10; with cubic splines, to 1e-6.
 constexpr std::size_t kDegree = 5;
-/// Number of lines in each direction along which a surface is probed.
-constexpr std::size_t kProbes = 5;
 
 std::vector<double> evenly(std::size_t sides)
 {
@@ -216,7 +215,7 @@ SplineCurveData approximate(const CurveFunction& function, double precision, std
 
 SplineSurfaceData approximate(const SurfaceFunction& function, double precision, std::size_t most)
 {
-    const std::vector<double> across = evenly(kProbes - 1);
+    const std::vector<double> across = evenly(kSamplesPerSide);
     const auto lines_along_u = [&](std::span<const double> at) {
         const std::vector<Vec3> grid = function(at, across);
         std::vector<std::vector<Vec3>> lines;

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/detail/edge_shape.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -18,10 +19,6 @@ namespace lacuna::cad {
 using namespace topology;
 
 namespace {
-
-/// Limit on the spans of the correction in each direction. A power of two, so that its knots are also knots
-/// of the surface.
-constexpr std::size_t kMostSpans = 16;
 
 /// Piecewise linear map from the parameter of the patch to the share of a side, so that the breaks of
 /// opposite sides get the same parameter.
@@ -255,7 +252,7 @@ void Patch::follow(const Model& model, const Face& face)
     const auto spans = [&](const PatchSide& a, const PatchSide& b) {
         const std::size_t segments = std::max(a.points().size(), b.points().size()) - 1;
         std::size_t count = 1;
-        while (2 * count <= kMostSpans && 4 * count <= segments) count *= 2;
+        while (2 * count <= kChords && 4 * count <= segments) count *= 2;
         return count;
     };
     Correction fit;

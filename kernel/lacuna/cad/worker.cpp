@@ -179,9 +179,10 @@ pid_t spawn(const std::string& program, int socket, int words)
 /// Duplicate a descriptor to a number above those that are overwritten in the CAD process.
 Descriptor raised(int number)
 {
-    constexpr int kFirst = 10;
     Descriptor low(number);
-    return number > 3 ? std::move(low) : Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, kFirst));
+    return number > cad_protocol::kSocket
+               ? std::move(low)
+               : Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, cad_protocol::kSocket + 1));
 }
 
 /// The current CAD process of this host; a child made by fork() gets its own. Never destroyed, because static
@@ -257,9 +258,8 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
                 .remedy("check the installation of lacuna-cad"));
     Descriptor ours = raised(ends[0]), theirs = raised(ends[1]);
     // Large buffers, so that a large message needs few waits.
-    constexpr int kBuffer = 1 << 20;
     for (const int end : {ours.get(), theirs.get()})
-        ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kBuffer, sizeof(kBuffer));
+        ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &cad_protocol::kBlock, sizeof(cad_protocol::kBlock));
     words_ = raised(::memfd_create("lacuna-cad words", MFD_CLOEXEC));
     pid_ = spawn(program, theirs.get(), words_.get());
     process_ = Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
@@ -369,8 +369,7 @@ std::unique_lock<std::timed_mutex> Worker::enter(const Task& task)
                                  task.subject)
                              .remedy("load the CAD file in this process"));
     std::unique_lock lock(busy_, std::defer_lock);
-    constexpr auto kTick = std::chrono::milliseconds(50);
-    while (!lock.try_lock_for(kTick))
+    while (!lock.try_lock_for(std::chrono::milliseconds(cad_protocol::kTick)))
         if (task.context != nullptr) check_cancelled(*task.context);
     notice_end();
     if (ended_)
@@ -464,9 +463,7 @@ void Worker::flush_released()
     }
     for (const std::uint64_t handle : handles) {
         charged_.erase(handle);
-        constexpr double kSecondsToSend = 5; // the process is idle and the message is small
-        channel_->send(Opcode::release, encode(ReleaseRequest{handle}), {},
-                       patience_of(nullptr, kSecondsToSend));
+        channel_->send(Opcode::release, encode(ReleaseRequest{handle}), {}, patience_of(nullptr, kSeconds));
     }
 }
 

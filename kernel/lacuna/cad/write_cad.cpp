@@ -4,6 +4,7 @@
 #include <lacuna/cad/detail/cad_files.h>
 #include <lacuna/cad/detail/solid_plan.h>
 #include <lacuna/closure/close.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/shared/units.h>
 #include <lacuna/io/whole_file.h>
@@ -25,8 +26,6 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Widest gap that sewing closes, relative to the diagonal: faces farther apart do not belong together.
-constexpr double kWidestGap = 1e-3;
 void check_sealed(const OpenVolume& volume)
 {
     if (closure::is_watertight(volume)) return;
@@ -172,7 +171,7 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     request.first_tolerance = options.tolerance > 0 ? options.tolerance : volume.model.tolerance;
     request.last_tolerance = options.tolerance > 0
                                  ? request.first_tolerance
-                                 : std::max(request.first_tolerance, kWidestGap * volume.model.diagonal);
+                                 : std::max(request.first_tolerance, kVisible * volume.model.diagonal);
     request.facet_volume = written.facet_volume;
     request.deviation = options.deviation;
     const auto made = worker->ask<MakeSolidReply>(Opcode::make_solid, request, task);

@@ -20,10 +20,6 @@ constexpr std::uint16_t kVersion = 6;        // incremented with every change of
 constexpr std::size_t kMostDescriptors = 250;
 /// Limit on the bytes of one frame: more than the largest model that can be meshed.
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
-/// Memory grows in steps of this size while a frame arrives, so that a false length allocates little.
-constexpr std::size_t kGrowth = std::size_t{16} << 20;
-/// Period at which `Patience` is called [ms].
-constexpr int kTick = 50;
 
 struct Head {
     std::uint32_t magic = kMagic;
@@ -148,7 +144,7 @@ Frame Channel::receive(const Patience& patience)
     const auto length = static_cast<std::size_t>(head.length);
     got = 0;
     while (got < length) {
-        if (frame.bytes.size() == got) frame.bytes.resize(std::min(length, std::max(2 * got, got + kGrowth)));
+        if (frame.bytes.size() == got) frame.bytes.resize(std::min(length, std::max(2 * got, got + kBlock)));
         got += read_into(frame.bytes.data() + got, frame.bytes.size() - got);
     }
     if (frame.descriptors.size() != head.descriptors)

@@ -4,6 +4,7 @@
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/exact_geometry.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -18,9 +19,6 @@
 namespace lacuna::cad_worker {
 
 namespace {
-
-/// Number of segments of the first polyline of a curve.
-constexpr std::size_t kFineSides = 128;
 
 std::vector<double> evenly(double low, double high, std::size_t sides)
 {
@@ -116,7 +114,7 @@ void read_curves(CadWire& wire)
         }
         curve.from = vertex_of_tag.at(down.front());
         curve.to = vertex_of_tag.at(down.back());
-        curve.params = evenly(curve.low, curve.high, kFineSides);
+        curve.params = evenly(curve.low, curve.high, kFineChords);
         curve.points = curve_points(curve.tag, curve.params);
         curve.length = geometry::length(curve.points);
         // In some files, the vertices of a curve are listed in the opposite order. The order of the
@@ -152,9 +150,8 @@ OnCurve closest_on_curve(const CadCurveInfo& curve, const Vec3& p, double low, d
     }
     t = std::clamp(t, low, high);
     // The polyline is fine, so Gauss-Newton starts close and converges fast.
-    constexpr int kSteps = 12;
     Vec3 at = curve_points(curve.tag, {t}).front();
-    for (int i = 0; i < kSteps; ++i) {
+    for (int i = 0; i < kMostSteps; ++i) {
         const Vec3 tangent = curve_tangents(curve.tag, {t}).front();
         if (!(tangent.squaredNorm() > 0)) break;
         const double next = std::clamp(t + (p - at).dot(tangent) / tangent.squaredNorm(), low, high);
@@ -176,7 +173,7 @@ std::vector<std::pair<double, Index>> cuts_of(const CadWire& wire, const CadCurv
     Eigen::AlignedBox3d box;
     for (const Vec3& p : curve.points) box.extend(p);
     // An arc extends beyond the box of its polyline by less than one segment, so enlarge the box by that.
-    const double reach = curve.length / static_cast<double>(kFineSides) + tolerance;
+    const double reach = curve.length / static_cast<double>(kFineChords) + tolerance;
     const Index from = wire.vertices[index(curve.from)].point;
     const Index to = wire.vertices[index(curve.to)].point;
     std::vector<std::pair<double, Index>> cuts;
@@ -227,10 +224,9 @@ std::optional<bool> runs_against(const CadWire& wire, const CadPiece& a, const C
 {
     const CadCurveInfo& on_a = wire.curves[a.curve];
     const CadCurveInfo& on_b = wire.curves[b.curve];
-    constexpr int kProbes = 6;
     double first = 0, last = 0;
-    for (int i = 1; i < kProbes; ++i) {
-        const double t = a.low + (a.high - a.low) * i / kProbes;
+    for (int i = 1; i < kChords; ++i) {
+        const double t = a.low + (a.high - a.low) * i / kChords;
         const OnCurve place = closest_on_curve(on_b, curve_points(on_a.tag, {t}).front(), b.low, b.high);
         if (place.distance > tolerance) return std::nullopt;
         if (i == 1) first = place.param;
@@ -297,9 +293,8 @@ FineCurve weigh(const CadCurveInfo& curve, double low, double high, const Finene
     const auto turn = [](const Sample& a, const Sample& b) {
         return geometry::angle_between(a.tangent, b.tangent);
     };
-    std::vector<Sample> samples = sample(evenly(low, high, kFineSides / 2));
-    constexpr int kRounds = 6;
-    for (int round = 0; round < kRounds; ++round) {
+    std::vector<Sample> samples = sample(evenly(low, high, kFineChords));
+    for (int round = 0; round < kMostSteps; ++round) {
         std::vector<double> between;
         for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
             if (turn(samples[i], samples[i + 1]) > fineness.turn)

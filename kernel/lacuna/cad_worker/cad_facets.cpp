@@ -4,6 +4,7 @@
 #include <lacuna/cad_worker/detail/face_grid.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/delaunay.h>
 #include <lacuna/geometry/shared/segment.h>
 
@@ -16,9 +17,6 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// If two images of one model point are closer than this, they are merged into one corner of the boundary.
-/// [grid cells]
-constexpr double kSameCorner = 0.25;
 /// Minimum distance of grid points from the boundary. [grid cells]
 constexpr double kClearance = 0.5;
 
@@ -249,7 +247,7 @@ private:
     {
         std::vector<Index>& same = nodes_of_point_[point];
         for (const Index n : same) {
-            if ((domain_.nodes[index(n)].grid - grid).norm() < kSameCorner) return n;
+            if ((domain_.nodes[index(n)].grid - grid).norm() < kOnePoint) return n;
         }
         same.push_back(static_cast<Index>(domain_.nodes.size()));
         domain_.nodes.push_back({grid, uv, point});

@@ -3,6 +3,8 @@
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/plain_curve.h>
 
@@ -123,13 +125,12 @@ void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const Parameter
     for (int k = 0; k < 2; ++k) {
         const int other = 1 - k;
         if (across[k] > 1e-6 * across[other] || (it.target - it.at).norm() <= precision) continue;
-        constexpr int kDirections = 12;
         constexpr double kInward = 0.02; // share of the box by which a start is moved off the pole
-        std::vector<Vec2> ring(kDirections);
+        std::vector<Vec2> ring(kChords);
         const bool at_low = it.uv[other] - box.low[other] < side[other] / 2;
-        for (int i = 0; i < kDirections; ++i) {
+        for (int i = 0; i < kChords; ++i) {
             Vec2& uv = ring[static_cast<std::size_t>(i)];
-            uv[k] = box.low[k] + side[k] * (i + 0.5) / kDirections;
+            uv[k] = box.low[k] + side[k] * (i + 0.5) / kChords;
             uv[other] = it.uv[other] + (at_low ? kInward : -kInward) * side[other];
         }
         const std::vector<Vec3> at = surface_points(tag, ring);
@@ -252,8 +253,7 @@ std::vector<Vec3> plain_form(int tag, double first, double last)
         size = std::max(size, points[i].cwiseAbs().maxCoeff());
         off = std::max(off, (plain.at(params[i]) - points[i]).norm());
     }
-    constexpr double kRounding = 1e-14; // relative to the coordinates
-    return off <= kRounding * size ? std::move(plain.form) : std::vector<Vec3>();
+    return off <= kRoundoff * size ? std::move(plain.form) : std::vector<Vec3>();
 }
 
 std::vector<Vec3> curve_tangents(int tag, const std::vector<double>& params)

@@ -18,9 +18,6 @@ using cad_protocol::FillSkinRequest;
 
 namespace {
 
-/// Gmsh's numbers of element types.
-constexpr int kGmshTriangle = 2, kGmshTet = 4;
-
 /// A frame in which the skin has about size 1, because some tolerances of Gmsh are absolute. The scale is a
 /// power of two, so scaling causes no rounding.
 struct UnitFrame {
@@ -58,7 +55,8 @@ int add_volume(const FillSkinRequest& skin, const UnitFrame& frame)
         std::vector<std::size_t> corners;
         for (const Triangle& t : shell)
             for (const Index p : t) corners.push_back(index(p) + 1);
-        gmsh::model::mesh::addElementsByType(face, kGmshTriangle, {}, corners);
+        gmsh::model::mesh::addElementsByType(face, gmsh::model::mesh::getElementType("Triangle", 1), {},
+                                             corners);
         loops.push_back(gmsh::model::geo::addSurfaceLoop({face}));
     }
     const int volume = gmsh::model::geo::addVolume(loops);
@@ -92,7 +90,8 @@ FillSkinReply read_tets(const FillSkinRequest& skin, const UnitFrame& frame, int
         if (known == given.end())
             mesh.points.push_back(frame.origin + frame.scale * Vec3(place[0], place[1], place[2]));
     }
-    gmsh::model::mesh::getElementsByType(kGmshTet, elements, corners, volume);
+    gmsh::model::mesh::getElementsByType(gmsh::model::mesh::getElementType("Tetrahedron", 1), elements,
+                                         corners, volume);
     mesh.tets.reserve(elements.size());
     for (std::size_t e = 0; e < elements.size(); ++e) {
         Quad tet;

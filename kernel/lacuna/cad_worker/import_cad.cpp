@@ -7,6 +7,7 @@
 #include <lacuna/cad_worker/detail/solid_file.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/default_labels.h>
+#include <lacuna/core/shared/limits.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,12 +28,6 @@ constexpr double kLongestSide = 1.0 / 20;
 constexpr double kMaxCells = 400'000;
 constexpr double kMaxCellsOfFace = 16'000;
 constexpr double kMinCellsOfFace = 100;
-/// Limit on the number of times that a face's boundary is divided twice as finely because it intersects
-/// itself.
-constexpr int kDivisions = 6;
-/// Limit on the points of all edges after refinement. It also limits time and memory, because each face is
-/// triangulated over its boundary points.
-constexpr std::size_t kMostDivided = 400'000;
 
 void import_file(Session& session, const OpenedFile& file)
 {
@@ -182,9 +177,9 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             progress(static_cast<double>(cut.faces.size()) / static_cast<double>(wire.faces.size()));
         }
         if (failed.empty()) return cut;
-        if (slivers.empty() && division < kDivisions) {
+        if (slivers.empty() && division < kMostSteps) {
             divide(wire, options.fineness, refinement);
-            if (wire.points.size() <= kMostDivided) continue;
+            if (wire.points.size() <= kMaxCells) continue;
         }
         // Start again with coarse edges, because the faces that needed fine edges are gone.
         leave_out(wire, slivers.empty() ? failed : slivers, path, gone);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// lacuna-cad: Gmsh and Open CASCADE in a separate process. The kernel starts it with a socket as descriptor
 /// 3, on which it receives requests and sends replies; it ends when the socket is closed.
+#include <lacuna/cad_protocol/shared/channel.h>
 #include <lacuna/cad_worker/confine.h>
 #include <lacuna/cad_worker/serve.h>
 #include <lacuna/cad_worker/session.h>
@@ -16,7 +17,6 @@
 
 namespace {
 
-constexpr int kSocket = 3;
 /// Largest file that may be written [bytes]: more than any solid, less than a disk.
 constexpr rlim_t kLargestFile = rlim_t{4} << 30;
 
@@ -24,7 +24,7 @@ constexpr rlim_t kLargestFile = rlim_t{4} << 30;
 void watch_host(pid_t host)
 {
     for (;;) {
-        pollfd socket{kSocket, POLLRDHUP, 0};
+        pollfd socket{lacuna::cad_protocol::kSocket, POLLRDHUP, 0};
         constexpr int kPause = 1000; // [ms]; then the parent is checked too, because a forked child of the
                                      // host may keep the socket open
         ::poll(&socket, 1, kPause);
@@ -39,12 +39,13 @@ int main()
 {
     int type = 0;
     socklen_t size = sizeof(type);
-    if (::getsockopt(kSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
+    if (::getsockopt(lacuna::cad_protocol::kSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
         constexpr std::string_view kWords =
             "lacuna-cad is started by Lacuna to read a CAD file; do not start it by hand\n";
         return ::write(2, kWords.data(), kWords.size()) < 0 ? 2 : 1;
     }
-    ::syscall(SYS_close_range, kSocket + 1, ~0U, 0); // close descriptors that the host left open
+    ::syscall(SYS_close_range, lacuna::cad_protocol::kSocket + 1, ~0U,
+              0); // close descriptors that the host left open
     const rlimit no_core{0, 0}, file{kLargestFile, kLargestFile};
     ::setrlimit(RLIMIT_CORE, &no_core);
     ::setrlimit(RLIMIT_FSIZE, &file);
@@ -52,7 +53,7 @@ int main()
     std::signal(SIGPIPE, SIG_IGN);
     const pid_t host = ::getppid();
     using namespace lacuna;
-    cad_protocol::Channel channel{cad_protocol::Descriptor(kSocket)};
+    cad_protocol::Channel channel{cad_protocol::Descriptor(lacuna::cad_protocol::kSocket)};
     try {
         cad_worker::keep_from_writing();
         const cad_worker::Gmsh gmsh;

@@ -14,9 +14,6 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Largest sag of a segment relative to its distance from another edge. The relative error of a thin ring's
-/// area is then also at most one percent.
-constexpr double kSag = 0.01;
 /// Largest refinement factor: a whole circle then has 384 segments.
 constexpr double kMost = 8;
 
@@ -87,7 +84,7 @@ std::vector<double> narrow_refinement(const CadWire& wire)
         for (const Side& side : sides) {
             if (!(side.sag > 0)) continue;
             const Vec3 middle = (side.from + side.to) / 2;
-            double near = side.sag / kSag; // other edges farther away need no refinement
+            double near = side.sag / kSameVolume; // other edges farther away need no refinement
             auto other = std::ranges::lower_bound(sides, middle.x() - near - longest, {}, [](const Side& s) {
                 return std::min(s.from.x(), s.to.x());
             });
@@ -98,7 +95,7 @@ std::vector<double> narrow_refinement(const CadWire& wire)
                 near = std::min(near, geometry::distance_to_segment(middle, other->from, other->to));
             }
             // The sag is inversely proportional to the square of the number of points.
-            const double wanted = near > 0 ? std::sqrt(side.sag / (kSag * near)) : kMost;
+            const double wanted = near > 0 ? std::sqrt(side.sag / (kSameVolume * near)) : kMost;
             refinement[side.edge] = std::max(refinement[side.edge], std::min(wanted, kMost));
         }
     }

@@ -167,12 +167,10 @@ void serve(Channel& channel, const std::string& missing)
         const auto failed = [&](Failure::Kind kind, const Message& message) {
             channel.send(Opcode::failed, encode(Failure{kind, message.parts()}));
         };
-        // Report progress no more often than a person can see it.
-        constexpr auto kPause = std::chrono::milliseconds(20);
         auto told = std::chrono::steady_clock::now();
         const auto progress = [&](double fraction) {
             const auto now = std::chrono::steady_clock::now();
-            if (now - told < kPause && fraction < 1) return;
+            if (now - told < std::chrono::milliseconds(cad_protocol::kTick) && fraction < 1) return;
             told = now;
             channel.send(Opcode::progress, encode(cad_protocol::Progress{fraction}));
         };

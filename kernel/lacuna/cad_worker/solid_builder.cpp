@@ -21,9 +21,6 @@ using cad_protocol::SplineSurfaceData;
 
 namespace {
 
-/// An inner loop trims a filled surface if it lies within this distance of the surface, relative to the
-/// diagonal.
-constexpr double kCloseBy = 1e-3;
 /// Tolerance for recognising a shape after it was copied through a file, relative to the diagonal.
 constexpr double kSame = 1e-7;
 
@@ -267,7 +264,7 @@ int SolidBuilder::filling(const SolidFace& face)
         for (const auto& use : face.loops[l])
             for (const int curve : curves_of(use[0])) inner.emplace_back(1, curve);
     std::vector<gmsh::vectorpair> map;
-    session_.set("Geometry.ToleranceBoolean", kCloseBy * request_->diagonal);
+    session_.set("Geometry.ToleranceBoolean", kVisible * request_->diagonal);
     gmsh::model::occ::fragment({{2, filled}}, inner, parts, map, -1, true, false);
     session_.set("Geometry.ToleranceBoolean", 0.0);
     forget_removed();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/cad_facets.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/spread.h>
 
 #include <Eigen/Eigenvalues>
@@ -21,12 +22,12 @@ struct Bend {
 
 std::vector<Bend> bends_of(int tag, const ParameterBox& box)
 {
-    constexpr int kSamples = 5;
     std::vector<Vec2> uv;
-    for (int i = 0; i < kSamples; ++i) {
-        for (int j = 0; j < kSamples; ++j) {
+    for (int i = 0; i < kSamplesPerSide; ++i) {
+        for (int j = 0; j < kSamplesPerSide; ++j) {
             uv.push_back(box.low +
-                         (box.high - box.low).cwiseProduct(Vec2((i + 0.4) / kSamples, (j + 0.6) / kSamples)));
+                         (box.high - box.low)
+                             .cwiseProduct(Vec2((i + 0.4) / kSamplesPerSide, (j + 0.6) / kSamplesPerSide)));
         }
     }
     const std::vector<Vec3> at = surface_points(tag, uv);

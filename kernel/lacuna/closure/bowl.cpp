@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/patches.h>
@@ -19,13 +20,6 @@ using namespace topology;
 
 namespace {
 
-/// Largest number of flat faces tried as the mouth, in the order of their area. Each costs a pass over the
-/// facets and possibly a cut. A hollow has one possible mouth, a box six; with a lower number, a small mouth
-/// may be missed.
-constexpr std::size_t kMostMouths = 4;
-/// Number of heights between bottom and mouth at which the inclination is sampled. The skin is cut at one of
-/// them. A fillet whose height is a thirtieth of the depth still covers two of these heights.
-constexpr std::size_t kBins = 64;
 /// If the steepest inclination of a skin is below this (11°), the skin has no walls [radians]. With a lower
 /// value, surfaces that hardly rise count as walls; with a higher one, shallow bowls have no walls.
 constexpr double kLeastLean = 0.2;
@@ -65,7 +59,7 @@ std::vector<Mouth> mouths(const Model& model)
         });
     });
     std::ranges::stable_sort(found, std::greater<>(), &Mouth::area);
-    if (found.size() > kMostMouths) found.resize(kMostMouths);
+    if (found.size() > kMostTrials) found.resize(kMostTrials);
     return found;
 }
 
@@ -82,10 +76,10 @@ std::optional<double> parting_depth(const Model& model, const Mouth& mouth)
         for (const Index p : corners_of(face))
             depth = std::max(depth, -geometry::height(mouth.plane, model.at(p)));
     if (!(depth > model.tolerance)) return std::nullopt;
-    std::array<double, kBins> area{}, across{}; // from the bottom up
+    std::array<double, kFineChords> area{}, across{}; // from the bottom up
     const auto bin = [&](double d) {
-        const double share = (1 - d / depth) * kBins;
-        return static_cast<std::size_t>(std::clamp(share, 0.0, kBins - 1.0));
+        const double share = (1 - d / depth) * kFineChords;
+        return static_cast<std::size_t>(std::clamp(share, 0.0, kFineChords - 1.0));
     };
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         if (has(mouth.faces, FaceId(f))) continue;
@@ -105,11 +99,11 @@ std::optional<double> parting_depth(const Model& model, const Mouth& mouth)
         return area[b] > 0 ? std::acos(std::clamp(across[b] / area[b], 0.0, 1.0)) : 0.0;
     };
     double steepest = 0;
-    for (std::size_t b = 0; b < kBins; ++b) steepest = std::max(steepest, lean(b));
+    for (std::size_t b = 0; b < kFineChords; ++b) steepest = std::max(steepest, lean(b));
     if (steepest < kLeastLean || !(lean(0) < steepest / 2)) return std::nullopt;
     std::size_t first = 0;
     while (lean(first) < steepest / 2) ++first;
-    return depth * (1 - static_cast<double>(first) / kBins);
+    return depth * (1 - static_cast<double>(first) / kFineChords);
 }
 
 /// Whether faces form a ring: they have two rims and the Euler number 0.

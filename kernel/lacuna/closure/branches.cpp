@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/branches.h>
 
+#include <lacuna/closure/detail/branch_mouths.h>
 #include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
-#include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -31,167 +33,14 @@ using namespace topology;
 
 namespace {
 
-/// Least angle between walls at a mouth, as a turn towards the void [degrees]. It is larger than the angle
-/// between the facets of a bent wall, and smaller than the angle at an oblique branch.
-constexpr double kConcave = 15;
 /// Largest depth of a dip (the line across a mouth in which the cut faces meet, see `add_dip()`), as a share
 /// of the distance to the opposite wall. For equal tubes the dip then reaches the axis.
 constexpr double kDeepest = 0.5;
-/// Cosine of 30°. If the planes of two branches (see `planes_along()`) differ by less than this angle, only
-/// one of the planes is used. An edge at less than this angle to the axis counts as parallel to the axis. A
-/// higher cosine adds nearly equal planes; a lower one makes branches on different sides share a plane.
-constexpr double kSameSide = 0.87;
-/// Cosine of 44°. A face at the mouth is an end of the branch, not a wall, if the angle between its normal
-/// and the branch's direction is below this. The limit is about halfway between an end perpendicular to the
-/// branch (0°) and a wall along the branch (90°).
-constexpr double kAlongWay = 0.72;
 /// If a plane along the main body passes an edge inside the main body's end at less than this share of the
 /// widest mouth's width, the plane is moved onto the edge, so that no sliver is left. On a wall, the plane
 /// makes no line within this distance of an edge along the axis. A higher value moves the planes further from
 /// the centres of their mouths.
 constexpr double kBeside = 0.1;
-/// Number of chords of a dip, which is a parabola. The sag of a chord is 1/256 of the depth of the dip.
-constexpr int kChords = 16;
-
-/// A closed line of concave edges between a branch and its main body.
-struct Mouth {
-    std::vector<EdgeId> edges;
-    std::size_t host = 0, branch = 0; ///< the regions of the skin on the two sides of the mouth: main body
-                                      ///< and branch
-};
-
-/// The regions into which the mouths divide the skin, and the ends of each region.
-struct Branching {
-    std::vector<std::size_t> region;        ///< by face
-    std::vector<std::vector<FaceId>> faces; ///< by region
-    std::vector<std::vector<Vec3>> ends;    ///< centres of the ends, by region
-    std::vector<Mouth> mouths;
-};
-
-std::vector<Vec3> places(const Model& model, const std::vector<EdgeId>& edges)
-{
-    std::vector<Vec3> result;
-    for (const EdgeId edge : edges) {
-        const std::vector<Index>& points = model[edge].points;
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) result.push_back(model.at(points[i]));
-    }
-    return result;
-}
-
-class BranchFinder {
-public:
-    BranchFinder(const OpenVolume& volume, const RunContext& context)
-        : volume_(volume), model_(volume.model), context_(context), ends_(volume.faces(Role::source))
-    {
-        std::ranges::copy(volume.faces(Role::target), std::back_inserter(ends_));
-    }
-
-    Branching run()
-    {
-        find_lines();
-        // Remove lines that are not mouths. The regions on both sides of such a line become one.
-        for (bool again = true; again;) {
-            find_regions();
-            again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
-        }
-        return std::move(result_);
-    }
-
-private:
-    void find_lines()
-    {
-        const std::vector<double> turns = concave_turns(volume_, context_);
-        const std::set<EdgeId> at_ends = edges_of(model_, ends_);
-        std::map<VertexId, std::vector<EdgeId>> at;
-        geometry::UnionFind sets(model_.edges.size());
-        std::vector<EdgeId> concave;
-        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (at_ends.contains(EdgeId(e)) || turns[e] < kConcave) continue;
-            concave.emplace_back(e);
-            for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
-                for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);
-                at[v].emplace_back(e);
-            }
-        }
-        std::map<std::size_t, std::vector<EdgeId>> lines;
-        for (const EdgeId edge : concave) lines[sets.find(edge.index())].push_back(edge);
-        for (auto& [root, edges] : lines) {
-            const bool closed = std::ranges::all_of(edges, [&](EdgeId edge) {
-                return at.at(model_[edge].from).size() == 2 && at.at(model_[edge].to).size() == 2;
-            });
-            if (closed) result_.mouths.push_back({std::move(edges)});
-        }
-    }
-
-    void find_regions()
-    {
-        std::set<EdgeId> barred;
-        for (const Mouth& mouth : result_.mouths) barred.insert(mouth.edges.begin(), mouth.edges.end());
-        geometry::UnionFind sets(model_.faces.size());
-        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (barred.contains(EdgeId(e))) continue;
-            const std::span<const FaceUse> uses = model_.uses_of_edge(EdgeId(e));
-            for (const FaceUse& use : uses) sets.unite_least(uses.front().face.index(), use.face.index());
-        }
-        std::map<std::size_t, std::size_t> number;
-        result_.region.clear();
-        result_.faces.clear();
-        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-            const std::size_t own = number.try_emplace(sets.find(f), number.size()).first->second;
-            result_.region.push_back(own);
-            result_.faces.resize(number.size());
-            result_.faces[own].emplace_back(f);
-        }
-        result_.ends.assign(number.size(), {});
-        for (const std::vector<FaceId>& end : connected_parts(model_, ends_))
-            result_.ends[result_.region[end.front().index()]].push_back(centroid_of(model_, end));
-        for (const Rim& rim : free_loops(volume_)) {
-            std::vector<EdgeId> edges;
-            for (const EdgeUse& use : rim.uses) edges.push_back(use.edge);
-            const std::size_t own = result_.region[model_.uses_of_edge(edges.front()).front().face.index()];
-            result_.ends[own].push_back(geometry::mean_point(places(model_, edges)));
-        }
-    }
-
-    /// Decide which side of a mouth is the main body. @return false if the line is not a mouth.
-    bool set_sides(Mouth& mouth)
-    {
-        const std::span<const FaceUse> users = model_.uses_of_edge(mouth.edges.front());
-        mouth.host = result_.region[users[0].face.index()];
-        mouth.branch = result_.region[users[1].face.index()];
-        if (mouth.host == mouth.branch) return false;
-        const auto worth = [&](std::size_t region) {
-            const bool source = std::ranges::any_of(result_.faces[region], [&](FaceId face) {
-                return volume_.role[face.index()] == Role::source;
-            });
-            return std::pair(std::min<std::size_t>(result_.ends[region].size(), 2), source);
-        };
-        if (worth(mouth.host) < worth(mouth.branch)) std::swap(mouth.host, mouth.branch);
-        if (result_.ends[mouth.host].size() < 2) return false;
-        const std::vector<Vec3> rim = places(model_, mouth.edges);
-        const Vec3 centre = geometry::mean_point(rim);
-        const Vec3 normal = geometry::newell_vector(rim).normalized();
-        // If the normal of the line is parallel to the main body's axis, the section of the body changes
-        // there; the line is not a mouth.
-        const std::vector<Vec3>& ends = result_.ends[mouth.host];
-        const Vec3 way = ends.back() - ends.front();
-        if (ends.size() == 2 && way.cross(normal).norm() < kAlongAxis * way.norm()) return false;
-        if (!result_.ends[mouth.branch].empty()) return true;
-        // A shallow dimple counts as part of the wall.
-        double width = 0, depth = 0;
-        for (const Vec3& p : rim) width = std::max(width, (p - centre).norm());
-        for (const FaceId face : result_.faces[mouth.branch])
-            for (const Index p : corners_of(model_[face]))
-                depth = std::max(depth, std::abs((model_.at(p) - centre).dot(normal)));
-        return depth > width / 2;
-    }
-
-    const OpenVolume& volume_;
-    const Model& model_;
-    const RunContext& context_;
-    std::vector<FaceId> ends_; ///< faces of source and target
-    Branching result_;
-};
 
 /// Extent of a mouth along a direction.
 struct Reach {
@@ -271,7 +120,7 @@ private:
         const Vec3 outward = way_out(mouth);
         for (const FaceId face : found_.faces[mouth.branch]) {
             const double facing = std::abs(face_area_vector(model, face).dot(outward));
-            if (!is_at(mouth, face) || facing <= kAlongWay * face_area(model, face)) continue;
+            if (!is_at(mouth, face) || facing <= kContinues * face_area(model, face)) continue;
             throw NotSweepable(
                 Message("closure.branches",
                         "the branch of {} on {} reaches beyond the side of the main body, because "
@@ -338,7 +187,7 @@ private:
             if (!(square.norm() > kAlongAxis * normal.norm())) return;
             Vec3 n = square.normalized();
             const bool known = std::ranges::any_of(planes, [&](const geometry::Plane& plane) {
-                return std::abs(plane.normal.dot(n)) > kSameSide;
+                return std::abs(plane.normal.dot(n)) > std::cos(kCreaseAngle * kDegree);
             });
             if (known) return;
             // Let the plane pass through an edge of the end that is near, so that no sliver is left beside
@@ -387,7 +236,7 @@ private:
                 if (std::ranges::find(walls, made.parent[f]) != walls.end()) walls.emplace_back(f);
             }
         }
-        Branching again = BranchFinder(lined, context_).run();
+        Branching again = find_mouths(lined, context_);
         return BranchCutter(lined, std::move(again), context_, true).run();
     }
 
@@ -413,7 +262,7 @@ private:
             const std::vector<Index>& points = model[edge].points;
             for (std::size_t i = 0; i + 1 < points.size(); ++i) {
                 const Vec3 &a = model.at(points[i]), &b = model.at(points[i + 1]);
-                if (std::abs((b - a).dot(axis_)) < kSameSide * (b - a).norm()) continue;
+                if (std::abs((b - a).dot(axis_)) < kOneCurve * (b - a).norm()) continue;
                 const double f = std::clamp(fraction_along(middle, a, b), 0.0, 1.0);
                 if ((middle - ((1 - f) * a + f * b)).norm() <= near) return true;
             }
@@ -664,12 +513,12 @@ private:
 
 bool has_branches(const OpenVolume& volume, const RunContext& context)
 {
-    return !BranchFinder(volume, context).run().mouths.empty();
+    return !find_mouths(volume, context).mouths.empty();
 }
 
 std::vector<StepPiece> cut_branches(const OpenVolume& volume, const RunContext& context)
 {
-    Branching found = BranchFinder(volume, context).run();
+    Branching found = find_mouths(volume, context);
     if (found.mouths.empty()) return {{.volume = volume}};
     std::vector<StepPiece> result;
     for (const StepPiece& piece : BranchCutter(volume, std::move(found), context).run()) {

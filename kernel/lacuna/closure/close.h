@@ -11,7 +11,7 @@
 //   void edges along bent walls             follow.cpp
 //   missing end like the given one          moved_end.cpp
 //   flat faces in free loops                flat_fill.cpp, split_loop.cpp, touching_faces.cpp
-//   missing round walls                     round_walls.cpp
+//   missing round and straight walls        round_walls.cpp, straight_walls.cpp
 //   holes in ends; ends of walls alone      end_holes.cpp, class_five.cpp
 //   whether a closing is ambiguous          guesses.cpp, membranes.cpp
 //   void faces that cross other faces       sealing.cpp
@@ -20,9 +20,10 @@
 //   cavities of solids, facts of a model    cavities.cpp, model_facts.cpp
 //   best direction of a sweep               void_sweeps.cpp
 //   hollows with a round bottom or a floor  hollow_readings.cpp, bowl.cpp
-//   a source alone                          along.cpp; its motion: along_motion.cpp
+//   a source alone                          along.cpp; its motion: along_motion.cpp, along_normals.cpp
 //   one plane cut                           cut.cpp, pieces.cpp; a full turn: full_turn.cpp
-//   steps, branches, rounded rims           steps.cpp, branches.cpp, round_rims.cpp
+//   steps                                   steps.cpp, step_cutter.cpp
+//   branches, rounded rims                  branches.cpp, branch_mouths.cpp; round_rims.cpp
 //   candidates of cuts                      cut_planes.cpp
 //   which cuts are made                     partition.cpp; a block per vertex: midpoint.cpp
 //   ends of pieces                          piece_ends.cpp

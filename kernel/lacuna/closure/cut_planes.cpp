@@ -55,12 +55,6 @@ std::optional<Vec3> across_hollow(const Model& model, EdgeId edge)
     return std::nullopt;
 }
 
-/// Whether a face turns by more than a right angle, as a bore does and a fillet does not.
-bool turns_as_bore(const Model& model, FaceId face)
-{
-    return face_area_vector(model, face).norm() < kQuarterTurn * face_area(model, face);
-}
-
 /// The straight edges of a cylinder along its axis.
 std::vector<EdgeId> edges_along(const Model& model, FaceId face, const Vec3& axis)
 {
@@ -365,6 +359,11 @@ private:
 };
 
 } // namespace
+
+bool turns_as_bore(const Model& model, FaceId face)
+{
+    return face_area_vector(model, face).norm() < kQuarterTurn * face_area(model, face);
+}
 
 std::vector<Bend> bends_of(const Model& model, const SkinTurns& turns)
 {

@@ -166,13 +166,8 @@ std::optional<FlatFilling> fill_and_note(const Model& model, const std::vector<F
     return filled;
 }
 
-/// Largest inclination to the source of a new face that belongs to the missing end [degrees]. Chamfers and
-/// roof slopes are less inclined. Steeper new faces, such as the risers of steps, are walls. If all new faces
-/// are steeper, the least steep ones form the end.
-constexpr double kSlope = 60;
-
-/// Make the new faces that are inclined to the source by at most `kSlope` the target; if there are none, the
-/// least inclined ones. The other new faces stay walls.
+/// Make the new faces that are inclined to the source by at most 90° less `kCreaseAngle` the target; if there
+/// are none, the least inclined ones. The other new faces stay walls.
 void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source)
 {
     const Model& model = filling.volume.model;
@@ -182,7 +177,8 @@ void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source
     };
     double most = -1;
     for (const FaceId face : filling.closure.void_faces) most = std::max(most, facing(face));
-    const double enough = std::min(most - kFileAccuracy, std::cos(kSlope * kDegree));
+    // Chamfers and roof slopes are less inclined; steeper new faces, such as the risers of steps, are walls.
+    const double enough = std::min(most - kFileAccuracy, std::sin(kCreaseAngle * kDegree));
     for (const FaceId face : filling.closure.void_faces)
         if (facing(face) >= enough) filling.volume.role[face.index()] = Role::target;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/follow.h>
 
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/matching/shared/guides.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -12,25 +14,16 @@ namespace lacuna::closure {
 
 namespace {
 
-/// Number of heights at which the walls are cut: one per segment of a void edge.
-constexpr int kLevels = 64;
-/// Beside walls that form a ring, void edges are straight if the bow of the walls (`Follower::bow()`) is at
-/// most this. Straight void edges then change the area of the section by about twice this share, 1 %.
-constexpr double kAstray = 0.005;
-/// The same limit for walls that do not form a ring: kAstrayOpen if they determine the rest of their loop,
-/// kAstrayGuessed otherwise. The limits are higher, because walls with a given mesh and single twisted walls
-/// with few facets may have such a bow although the true wall is straight.
-constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
+/// Void edges beside walls that form no ring are straight if the bow of the walls (`Follower::bow()`) is at
+/// most this. Beside a ring the limit is half of `kSameVolume`, because straight void edges change the area
+/// of the section by about twice the bow. It is higher here, because walls with a given mesh and single
+/// twisted walls with few facets may have such a bow although the true wall is straight.
+constexpr double kAstrayOpen = 0.04;
 /// If walls that form no ring have a bow above kBeside, they possibly do not belong to a sweep. Void edges
 /// that follow such walls are then tried before straight ones only if an edge would leave its chord by more
 /// than kFarAstray. kBeside is relative to the radius of the source's rim, kFarAstray to the smaller radius
 /// of the two rims.
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
-/// If some walls form rings, a loop whose walls form no ring gets a motion of its own only if
-/// `missed_by_all()` of the loop exceeds this. Below this value, the rings represent the bend better. On 350
-/// bent, twisted and tapered tubes the distance was at most 0.005 in nine of ten cases; on a lofted pipe it
-/// was 0.017.
-constexpr double kMissed = 0.01;
 
 /// Mean distance of points from their centroid; 0 if there are none.
 double mean_radius(const std::vector<Vec3>& points)
@@ -101,16 +94,17 @@ double bow_of(const std::vector<std::vector<Vec3>>& levels)
 Follower::Follower(const topology::OpenVolume& volume, const std::vector<matching::SideLine>& lines,
                    const RunContext& context)
 {
-    matching::Sections sections = matching::cut_sections(volume, lines, kLevels, context);
+    matching::Sections sections = matching::cut_sections(volume, lines, context);
     heights_ = std::move(sections.heights);
     closed_ = sections.closed;
-    tells_ = !sections.loops.empty();
     const std::vector<std::vector<Vec3>>& levels = sections.levels;
     if (levels.front().empty()) return;
     bow_ = bow_of(levels);
     ways_.push_back(way_of(levels, sections.areas, context));
     for (const matching::LoopSections& loop : sections.loops) {
-        if (!closed_ || !(missed_by_all(volume.model, loop) > kMissed)) continue;
+        // Within the limit, the rings represent the bend of the other loops better. On 350 bent, twisted and
+        // tapered tubes, nine of ten loops missed by less than half of it; on a lofted pipe, one by 0.017.
+        if (!closed_ || !(missed_by_all(volume.model, loop) > kAlikeSizes)) continue;
         for (const Index point : loop.rim) at_rim_.emplace(point, ways_.size());
         ways_.push_back(way_of(loop.levels, sections.areas, context));
     }
@@ -133,7 +127,7 @@ double Follower::missed_by_all(const topology::Model& model, const matching::Loo
     const geometry::FacetTree tree(model.points, topology::facets_of(model, loop.faces));
     std::vector<double> missed;
     for (std::size_t k = 1; k + 1 < loop.levels.size(); ++k) {
-        const double t = static_cast<double>(k) / kLevels;
+        const double t = static_cast<double>(k) / kFineChords;
         for (std::size_t i = 0; i < loop.levels[k].size(); ++i)
             missed.push_back(
                 std::sqrt(tree.closest(morph(loop.levels.front()[i], loop.levels.back()[i], t)).distance2));
@@ -151,8 +145,8 @@ std::size_t Follower::walls_at(Index rim_point) const
 Vec3 Follower::morph(const Vec3& source, const Vec3& target, double t, std::size_t walls) const
 {
     const Way& way = ways_[walls];
-    const double at = std::clamp(t, 0.0, 1.0) * kLevels;
-    const auto low = static_cast<std::size_t>(std::min(std::floor(at), kLevels - 1.0));
+    const double at = std::clamp(t, 0.0, 1.0) * kFineChords;
+    const auto low = static_cast<std::size_t>(std::min(std::floor(at), kFineChords - 1.0));
     const double f = at - static_cast<double>(low);
     const Vec3 up = (1 - f) * way.from_source[low](source) + f * way.from_source[low + 1](source);
     const Vec3 down = (1 - f) * way.from_target[low](target) + f * way.from_target[low + 1](target);
@@ -166,12 +160,12 @@ Vec3 Follower::leaving(const Vec3& source) const
 
 Vec3 Follower::arriving(const Vec3& target) const
 {
-    return (target - ways_[0].from_target[kLevels - 1](target)).stableNormalized();
+    return (target - ways_[0].from_target[kFineChords - 1](target)).stableNormalized();
 }
 
 bool Follower::leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const
 {
-    if (closed_ || bow_ <= kBeside) return bow_ > (closed_ ? kAstray : tells_ ? kAstrayOpen : kAstrayGuessed);
+    if (closed_ || bow_ <= kBeside) return bow_ > (closed_ ? kSameVolume / 2 : kAstrayOpen);
     const topology::Model& model = volume.model;
     const std::vector<bool> on_wall = volume.on_wall();
     const double reach = kFarAstray * std::min(radius_of(volume, topology::Role::source),
@@ -180,8 +174,9 @@ bool Follower::leads_astray(const topology::OpenVolume& volume, const matching::
         if (on_wall[source.index()] || on_wall[target.index()]) continue;
         const Vec3 from = model.at(model[source].point), to = model.at(model[target].point);
         const Vec3 way = (to - from).stableNormalized();
-        for (int k = 1; k < kLevels; ++k) {
-            if (off_line(morph(from, to, static_cast<double>(k) / kLevels), from, way) > reach) return true;
+        for (int k = 1; k < kFineChords; ++k) {
+            if (off_line(morph(from, to, static_cast<double>(k) / kFineChords), from, way) > reach)
+                return true;
         }
     }
     return false;

@@ -4,6 +4,8 @@
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -23,19 +25,6 @@ namespace lacuna::closure {
 using namespace topology;
 
 namespace {
-
-/// Number of planes tried through each principal axis. They are fine enough to cut a polygonal ring with at
-/// most this number of sides near the middle of a side.
-constexpr int kDirections = 8;
-/// Section lengths that differ by less than this share count as equal; of such planes, the first one found is
-/// tried first. Otherwise the sag of facets would decide between planes through a round wall.
-constexpr double kAsShort = 0.02;
-
-/// Number of chords with which the length of a piece is measured. For a half circle, the measured length is
-/// too short by 0.2 %. Each chord costs a pass over the walls.
-constexpr std::size_t kSections = 16;
-/// Share of the turn of each piece if their lengths cannot be measured.
-constexpr double kHalf = 0.5;
 
 struct Candidate {
     geometry::Plane plane;
@@ -88,9 +77,10 @@ std::vector<Candidate> candidates_of(const Model& model, const RunContext& conte
         }
         if (!(first.norm() > model.tolerance)) first = walls.axis.col((a + 1) % 3);
         first.normalize();
-        for (int k = 0; k < kDirections; ++k) {
+        // Planes so close that one cuts a polygonal ring of few sides near the middle of a side.
+        for (std::size_t k = 0; k < kMostTrials; ++k) {
             check_cancelled(context);
-            const double angle = std::numbers::pi * k / kDirections;
+            const double angle = std::numbers::pi * static_cast<double>(k) / kMostTrials;
             const Vec3 normal = std::cos(angle) * axis.cross(first) - std::sin(angle) * first;
             Candidate candidate{geometry::plane_across(walls.centre, normal)};
             candidate.length = section_length(model, faces, candidate.plane);
@@ -102,7 +92,7 @@ std::vector<Candidate> candidates_of(const Model& model, const RunContext& conte
     while (!found.empty()) {
         const double least = std::ranges::min_element(found, {}, &Candidate::length)->length;
         const auto next = std::ranges::find_if(
-            found, [&](const Candidate& c) { return c.length <= (1 + kAsShort) * least; });
+            found, [&](const Candidate& c) { return c.length <= (1 + kAlikeSizes) * least; });
         sorted.push_back(*next);
         found.erase(next);
     }
@@ -116,7 +106,7 @@ double arc_length(const OpenVolume& volume)
     const Model& model = volume.model;
     const std::vector<Triangle> walls = facets_of(model, volume.faces(Role::wall));
     std::map<Index, double> ends;
-    std::vector<Vec3> line(kSections + 1, Vec3::Zero());
+    std::vector<Vec3> line(kChords + 1, Vec3::Zero());
     for (const Role end : {Role::source, Role::target}) {
         const std::vector<FaceId> faces = volume.faces(end);
         for (const Triangle& t : facets_of(model, faces))
@@ -131,8 +121,8 @@ double arc_length(const OpenVolume& volume)
     std::erase_if(ends, [&](const auto& end) { return !used.contains(end.first); });
     problem.fix(ends);
     const Eigen::MatrixXd height = geometry::solve_harmonic(problem);
-    for (std::size_t k = 1; k < kSections; ++k) {
-        const double level = static_cast<double>(k) / kSections;
+    for (std::size_t k = 1; k < kChords; ++k) {
+        const double level = static_cast<double>(k) / kChords;
         double length = 0;
         for (const Triangle& t : walls) {
             std::vector<Vec3> crossed;
@@ -185,9 +175,9 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
         if (!pieces) continue;
         if (is_cut_across(*pieces)) {
             StepPiece &one = pieces->front(), &other = pieces->back();
-            const double first = arc_length(one.volume), second = arc_length(other.volume);
-            const bool measured = first > 0 && second > 0;
-            one.turn_to = other.turn_from = measured ? first / (first + second) : kHalf;
+            double first = arc_length(one.volume), second = arc_length(other.volume);
+            if (!(first > 0 && second > 0)) first = second = 1; // not measured: half a turn each
+            one.turn_to = other.turn_from = first / (first + second);
             return std::move(*pieces);
         }
         if (!why)

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -18,9 +19,6 @@ using namespace topology;
 
 namespace {
 
-/// A face is about flat if half the range of its heights over its mean plane is at most this share of its
-/// extent. With a lower value, roughness counts as a bend; with a higher one, shallow bends are missed.
-constexpr double kFlat = 0.02;
 /// Largest distance of a face from the quadric of its rim at which the face counts as near, as a share of
 /// half the range of the face's heights. A higher value would accept a membrane over the rim of two planes,
 /// although the membrane is far from both; a lower one would reject coarse facets.
@@ -43,7 +41,7 @@ Vec3 extent_of(const Model& model, FaceId face)
 bool is_about_flat(const Model& model, FaceId face)
 {
     const Vec3 extent = extent_of(model, face);
-    return extent.z() / 2 <= kFlat * extent.head<2>().norm();
+    return extent.z() / 2 <= kParallel * extent.head<2>().norm();
 }
 
 bool bends_as_rim(const Model& model, FaceId face)

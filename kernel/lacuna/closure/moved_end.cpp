@@ -8,6 +8,8 @@
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/minimal_frame.h>
@@ -34,13 +36,6 @@ using namespace topology;
 
 namespace {
 
-/// Tolerance of the motion, as a share of the end's width. It limits two distances: that of a moved foot of a
-/// wall from the top of the wall, and that of a point of a straight side from its line. It exceeds the sag of
-/// round sides.
-constexpr double kOnTop = 0.01;
-/// Number of sample points along the foot of each wall. The motion is fitted and tested at these points.
-constexpr int kSamples = 8;
-
 /// A part of an end's rim between two vertices from which wall edges lead to the other end. Either all of its
 /// edges have walls, or none has.
 struct Stretch {
@@ -58,10 +53,9 @@ double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
 }
 
 /// The flat faces beside which some faces are given and others are missing, in the order of the model. Of
-/// more than `kMost` such faces, those with the most adjacent faces are kept.
+/// more than `kMostTrials` such faces, those with the most adjacent faces are kept.
 std::vector<FaceId> possible_ends(const Model& model)
 {
-    constexpr std::size_t kMost = 16; // limits run time: each may be closed on trial
     std::vector<std::pair<std::size_t, FaceId>> found;
     for (const FaceId face : all_faces(model)) {
         const bool bare = std::ranges::any_of(uses_of(model[face]), [&](const EdgeUse& use) {
@@ -72,7 +66,7 @@ std::vector<FaceId> possible_ends(const Model& model)
     }
     std::ranges::stable_sort(found, std::greater{}, &std::pair<std::size_t, FaceId>::first);
     std::vector<FaceId> ends;
-    for (std::size_t i = 0; i < std::min(kMost, found.size()); ++i) ends.push_back(found[i].second);
+    for (std::size_t i = 0; i < std::min(kMostTrials, found.size()); ++i) ends.push_back(found[i].second);
     std::ranges::sort(ends);
     return ends;
 }
@@ -127,7 +121,7 @@ public:
         for (const Stretch& stretch : rims_ | std::views::join) {
             if (!stretch.top.empty()) continue;
             for (const EdgeUse& use : stretch.foot) {
-                for (const Vec3& p : geometry::even_places(use_places(volume_.model, use), kSamples)) {
+                for (const Vec3& p : geometry::even_places(use_places(volume_.model, use), kChords)) {
                     result.push_back(motion_(p));
                     result.push_back((p + motion_(p)) / 2);
                 }
@@ -234,9 +228,9 @@ private:
         rims_.back().push_back({rim.uses, free_rims_[0].uses});
         const Vec3 from = geometry::newell_vector(std::span(low).first(low.size() - 1)),
                    to = geometry::newell_vector(std::span(high).first(high.size() - 1));
-        const std::vector<Vec3> feet = geometry::even_places(low, kSamples);
+        const std::vector<Vec3> feet = geometry::even_places(low, kChords);
         const Vec3 mean_low = geometry::mean_point(feet);
-        const Vec3 mean_high = geometry::mean_point(geometry::even_places(high, kSamples));
+        const Vec3 mean_high = geometry::mean_point(geometry::even_places(high, kChords));
         const double scale = std::sqrt(to.norm() / from.norm());
         const Eigen::Matrix3d turn = geometry::least_turn(from, to);
         for (const Vec3& p : feet) {
@@ -254,7 +248,7 @@ private:
 
     [[nodiscard]] std::vector<Vec3> sampled(const std::vector<EdgeUse>& uses) const
     {
-        return geometry::even_places(use_places(volume_.model, uses), kSamples);
+        return geometry::even_places(use_places(volume_.model, uses), kChords);
     }
 
     /// Whether every free edge of the walls belongs to the top of a wall or to a chain that leads up to a
@@ -278,11 +272,12 @@ private:
                 if (stretch.top.empty()) continue;
                 const std::vector<Vec3> top = use_places(volume_.model, stretch.top);
                 for (const Vec3& p : sampled(stretch.foot))
-                    if (off_chain(motion_(p), top) > kOnTop * width) return false;
+                    if (off_chain(motion_(p), top) > kAlikeSizes * width) return false;
             }
             for (const auto& [foot, top] : above_) {
                 const Vec3 p = motion_(volume_.model.at(volume_.model[foot].point));
-                if ((p - volume_.model.at(volume_.model[top].point)).norm() > kOnTop * width) return false;
+                if ((p - volume_.model.at(volume_.model[top].point)).norm() > kAlikeSizes * width)
+                    return false;
             }
             return moves_all(width);
         };
@@ -312,7 +307,7 @@ private:
         const auto straight = [&](const std::vector<EdgeUse>& uses) {
             const std::vector<Vec3> chain = use_places(volume_.model, uses);
             return std::ranges::all_of(chain, [&](const Vec3& p) {
-                return geometry::distance_to_segment(p, chain.front(), chain.back()) <= kOnTop * width;
+                return geometry::distance_to_segment(p, chain.front(), chain.back()) <= kAlikeSizes * width;
             });
         };
         std::vector<std::vector<Vec3>> tops;
@@ -329,8 +324,9 @@ private:
         }
         const geometry::Plane plane = geometry::newell_plane(tops);
         return std::ranges::all_of(tops, [&](const std::vector<Vec3>& top) {
-            return std::ranges::all_of(
-                top, [&](const Vec3& p) { return std::abs(geometry::height(plane, p)) <= kOnTop * width; });
+            return std::ranges::all_of(top, [&](const Vec3& p) {
+                return std::abs(geometry::height(plane, p)) <= kAlikeSizes * width;
+            });
         });
     }
 
@@ -340,7 +336,7 @@ private:
     {
         return std::ranges::all_of(rims_ | std::views::join, [&](const Stretch& stretch) {
             return !stretch.top.empty() || std::ranges::all_of(sampled(stretch.foot), [&](const Vec3& p) {
-                return (motion_(p) - p).norm() > kOnTop * width;
+                return (motion_(p) - p).norm() > kAlikeSizes * width;
             });
         });
     }
@@ -375,7 +371,7 @@ private:
         for (const Vec3& p : from_)
             if ((p - from_.front()).norm() > along.norm()) along = p - from_.front();
         return std::ranges::all_of(from_, [&](const Vec3& p) {
-            return (p - from_.front()).cross(along.stableNormalized()).norm() <= kOnTop * width;
+            return (p - from_.front()).cross(along.stableNormalized()).norm() <= kAlikeSizes * width;
         });
     }
 

@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/no_roles.h>
 
 #include <lacuna/closure/detail/class_five.h>
+#include <lacuna/closure/detail/cut_planes.h>
 #include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
@@ -12,6 +13,7 @@
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -28,8 +30,6 @@ using namespace topology;
 
 namespace {
 
-/// Largest number of planes tried for a remedy. Each one costs a cut.
-constexpr std::size_t kMostPlanes = 8;
 /// Largest number of faces that a remedy lists.
 constexpr std::size_t kMostTyped = 6;
 
@@ -60,7 +60,7 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
         if (!(turns[e] > kCreaseAngle)) continue;
         for (const FaceUse& use : model.uses_of_edge(EdgeId(e))) {
             const auto plane = plane_of(model, use.face);
-            if (!plane || tried.size() == kMostPlanes || std::ranges::find(tried, use.face) != tried.end())
+            if (!plane || tried.size() == kMostTrials || std::ranges::find(tried, use.face) != tried.end())
                 continue;
             tried.push_back(use.face);
             // A cut is refused if the plane crosses given quads of a face, or leaves the volume in one piece.
@@ -83,10 +83,7 @@ bool is_cone_to_its_tip(const Model& model, FaceId face)
 /// none. Fillets are less than half a turn.
 EdgeId crossing_of_bores(const Model& model)
 {
-    constexpr double kHalfTurn = 0.7; // upper bound of the mean normal's length; that of half a turn is 2 / π
-    const auto is_bore = [&](FaceId face) {
-        return face_area_vector(model, face).norm() < kHalfTurn * face_area(model, face);
-    };
+    const auto is_bore = [&](FaceId face) { return turns_as_bore(model, face); };
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
         if (uses.size() != 2 || uses[0].face == uses[1].face) continue;

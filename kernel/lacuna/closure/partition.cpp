@@ -14,6 +14,7 @@
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
@@ -36,10 +37,6 @@ namespace {
 /// Largest number of trial cuts, and of pieces. With these limits, a volume with hundreds of features takes
 /// seconds.
 constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
-/// Ends are searched only in the pieces of this many cuts: the ones that leave the least length to cut. The
-/// search for ends costs more than a cut. The same number limits the planes between features and the axes of
-/// `cut_in_steps()`.
-constexpr std::size_t kMostRead = 6;
 
 /// A piece of the volume. Its bends and the length left to cut matter only if it has no ends.
 struct CutPart {
@@ -290,7 +287,7 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, st
 {
     const OpenVolume& volume = part.piece.volume;
     std::vector<CutTried> cuts;
-    for (auto& [plane, edges] : cut_planes(volume, part.bends, kMostRead)) {
+    for (auto& [plane, edges] : cut_planes(volume, part.bends, kMostTrials)) {
         if (tried == kMostCuts) break;
         if (whole && edges.empty()) continue;
         if (whole) edges.clear();
@@ -320,7 +317,7 @@ std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, s
 {
     if (!(part.left > 0)) return {};
     std::vector<CutTried> cuts = try_cuts(part, least, whole, tried, context);
-    if (cuts.size() > kMostRead) cuts.resize(kMostRead);
+    if (cuts.size() > kMostTrials) cuts.resize(kMostTrials);
     const auto without_ends = [](const CutTried& cut) {
         return std::ranges::count(cut.parts, false, &CutPart::has_ends);
     };
@@ -458,7 +455,7 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
     OpenVolume away = volume;
     face_away(away, context);
     std::vector<Vec3> axes = axes_of(away, true);
-    if (axes.size() > kMostRead) axes.resize(kMostRead);
+    if (axes.size() > kMostTrials) axes.resize(kMostTrials);
     for (const Vec3& axis : axes) {
         check_cancelled(context);
         set_ends_along(away, axis);

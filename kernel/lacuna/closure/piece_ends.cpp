@@ -23,16 +23,9 @@ using namespace topology;
 
 namespace {
 
-/// Pieces with more faces keep their ends. Candidates for ends are sets of adjacent faces, and the number of
-/// such sets grows fast with the number of faces. A piece made by a few cuts has fewer faces. At most 64
-/// faces fit the bit mask `FaceSet`.
-constexpr std::size_t kMostFaces = 40;
 /// Largest number of candidates for ends of a piece; those of few faces come first. 600 is enough for a prism
 /// with twelve sides. With a higher limit, ends of more faces are found; the cost is quadratic in the limit.
 constexpr std::size_t kMostEnds = 600;
-/// The normals of any two faces of an end differ by less than 110°; this is the cosine of 110°. A lower
-/// cosine joins faces that fold back on each other; a higher one separates the slopes of a steep roof.
-constexpr double kOneEnd = -0.35;
 /// A face may belong to an end if its mean normal is longer than 1 − kFlat. The length is 1 for a flat face.
 constexpr double kFlat = 0.1;
 /// Subtracted from the cost of a pair for each end that the user named. A higher value keeps named ends at
@@ -45,6 +38,10 @@ constexpr double kUnlikeCut = 10;
 using FaceSet = std::uint64_t;
 
 constexpr FaceSet one(std::size_t face) { return FaceSet{1} << face; }
+
+/// Whether the faces of a piece fit in a `FaceSet`. Pieces with more faces keep their ends; a piece made by a
+/// few cuts has fewer.
+bool fit_in_set(const Model& model) { return model.faces.size() <= std::numeric_limits<FaceSet>::digits; }
 
 template <class Do>
 void for_each(FaceSet set, const Do& use)
@@ -122,7 +119,7 @@ public:
             for_each(beside & ~set, [&](std::size_t next) {
                 bool fits = faces_[next].normal.norm() > 1 - kFlat;
                 for_each(set, [&](std::size_t f) {
-                    fits = fits && faces_[f].normal.dot(faces_[next].normal) > kOneEnd;
+                    fits = fits && faces_[f].normal.dot(faces_[next].normal) > -kFacesEnd;
                 });
                 if (fits) add(set | one(next));
             });
@@ -298,7 +295,7 @@ std::size_t unlike(const Ends& a, const Ends& b)
 std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
 {
     const Model& model = piece.model;
-    if (model.faces.size() > kMostFaces || !free_edges(piece).empty()) return {Ends{.as_named = true}};
+    if (!fit_in_set(model) || !free_edges(piece).empty()) return {Ends{.as_named = true}};
     const Skin skin(model);
     std::vector<Ends> ways;
     const auto add = [&](FaceSet source, FaceSet target, double cost, bool as_named) {
@@ -389,7 +386,7 @@ ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context)
 
 bool walls_run_between_ends(const OpenVolume& volume)
 {
-    return volume.model.faces.size() <= kMostFaces && free_edges(volume).empty() &&
+    return fit_in_set(volume.model) && free_edges(volume).empty() &&
            Skin(volume.model)
                .are_ends(set_of(volume.faces(Role::source)), set_of(volume.faces(Role::target)));
 }

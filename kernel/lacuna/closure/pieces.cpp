@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -23,10 +24,6 @@ namespace lacuna::closure {
 using namespace topology;
 
 namespace {
-
-/// In a piece that has both ends, a cut face becomes part of an end if the cosine of the angle between the
-/// normals of the cut and of the source exceeds this (26°).
-constexpr double kAcross = 0.9;
 
 /// A piece, as faces of the common model.
 struct Part {
@@ -206,7 +203,7 @@ private:
     }
 
     /// The end that a flat cut belongs to in a piece with both ends: the end with about the same outward
-    /// normal. Null if the cut is not perpendicular to the sweep (`kAcross`).
+    /// normal. Null if the cut is not perpendicular to the sweep (`kOneCurve`).
     [[nodiscard]] std::vector<FaceId>* faced_as(const std::vector<FaceId>& cut, const Part& part,
                                                 Roles& roles) const
     {
@@ -214,8 +211,8 @@ private:
         const Vec3 area = area_vector_of(model_, roles.source);
         const bool behind = std::ranges::find(part.behind, cut.front()) != part.behind.end();
         const double along = (behind ? 1 : -1) * parted_.plane->normal.dot(area) / area.norm();
-        if (along > kAcross) return &roles.source;
-        return along < -kAcross ? &roles.target : nullptr;
+        if (along > kOneCurve) return &roles.source;
+        return along < -kOneCurve ? &roles.target : nullptr;
     }
 
     /// Whether a cut touches faces of an end that lie in the plane of the cut.

@@ -27,15 +27,9 @@ using namespace topology;
 
 namespace {
 
-/// Largest number of candidates that are sealed, the likeliest first. Sealing them takes some tenths of a
-/// second for 10,000 facets.
+/// Largest number of candidates that are sealed, or checked if none can be sealed, the likeliest first.
+/// Sealing them takes some tenths of a second for 10,000 facets.
 constexpr std::size_t kMostSealed = 24;
-/// Number of candidates checked if none of the likeliest can be sealed. With a lower number, voids may be
-/// missed; the time grows in proportion to this number.
-constexpr std::size_t kMostTried = 50;
-/// Added to the cost of the ends for a flat filling in which a loop is split between faces or a face has
-/// several loops. It equals the cost of missing ends in `topology::role_candidates()`.
-constexpr double kFilled = 0.1;
 
 /// Whether a void edge is further from its chord than a half circle over the chord would be.
 bool detours(const Void& v)
@@ -93,7 +87,8 @@ std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vect
     Void found;
     found.first.roles.walls = faces;
     const auto likeliest = std::ranges::min_element(sweeps, {}, &RoleCandidate::cost);
-    found.cost = kFilled + likeliest->cost;
+    // Splitting a loop between faces is as unlikely as missing ends.
+    found.cost = topology::kNoEnd + likeliest->cost;
     found.sealed.volume = std::move(filled->volume);
     found.sealed.closure = std::move(filled->closure);
     found.sealed.enclosed = enclosed_volume(found.sealed.volume);
@@ -232,7 +227,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     };
     std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed, context);
     if (found.empty()) // the likeliest candidates cannot be sealed; less likely ones may be
-        found = voids(model, less_likely(model, faces, kMostTried, seals, context), kMostSealed, context);
+        found = voids(model, less_likely(model, faces, kMostSealed, seals, context), kMostSealed, context);
     auto flat = fill_flat_loops(model, faces, context);
     const bool dropped = prefer_flat(found, flat, context);
     const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });

@@ -2,9 +2,11 @@
 #include <lacuna/closure/detail/rim_quadrics.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/spread.h>
+#include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -33,10 +35,6 @@ constexpr double kOnQuadric = 1e-4;
 /// Least number of points of the rim beyond nine. Nine points always lie on a quadric; further points show
 /// that the rim does. A higher number would exclude rims of few points.
 constexpr Eigen::Index kSpare = 4;
-/// Largest deviation (`off_ball()` and so on) at which a quadric counts as a ball, a circular cylinder or
-/// cone, another cylinder, or a pair of planes. It may be large, because the quadric passes through the rim
-/// in any case.
-constexpr double kSpecial = 0.01;
 /// A quadric is perpendicular to the rim's plane at a point of the rim if the cosine of the angle between the
 /// quadric's gradient and the plane's normal is below `kStandsUp`. There it continues a wall and cannot be
 /// the missing end. It may be perpendicular on at most a share `kStanding` of the points: a shaft on which a
@@ -134,12 +132,11 @@ double off_plane_pair(const Eigen::Matrix4d& form) { return singular_values(form
 /// Deviation from a circular cylinder or cone.
 double off_round_cone(const Eigen::Matrix4d& form)
 {
-    constexpr double kBendsAtAll = 1e-2;
     const Vec3 bends = bends_of(form);
     double unlike = 1;
     for (const Eigen::Index i : {0, 1}) {
         const double more = std::max(std::abs(bends(i)), std::abs(bends(i + 1)));
-        if (more > kBendsAtAll * bends.cwiseAbs().maxCoeff())
+        if (more > kOffShape * bends.cwiseAbs().maxCoeff())
             unlike = std::min(unlike, (bends(i + 1) - bends(i)) / more);
     }
     return unlike + singular_values(form)(3);
@@ -153,21 +150,22 @@ double off_cylinder(const Eigen::Matrix4d& form)
     return std::sqrt(std::max(squares(0), 0.0) / squares(2));
 }
 
-/// The forms cos t · a + sin t · b at which `off` has a minimum of at most `kSpecial`.
+/// The forms cos t · a + sin t · b at which `off` has a minimum of at most `kOffShape`.
 std::vector<Eigen::Matrix4d> special_forms(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b,
                                            const std::function<double(const Eigen::Matrix4d&)>& off)
 {
-    constexpr int kSteps = 360, kHalvings = 40;
     const auto at = [&](double t) -> Eigen::Matrix4d { return std::cos(t) * a + std::sin(t) * b; };
-    const double step = std::numbers::pi / kSteps;
-    std::array<double, kSteps> values{};
-    for (int k = 0; k < kSteps; ++k) values[static_cast<std::size_t>(k)] = off(at(k * step));
+    const double step = std::numbers::pi / kDegreesPerTurn;
+    std::array<double, kDegreesPerTurn> values{};
+    for (int k = 0; k < kDegreesPerTurn; ++k) values[static_cast<std::size_t>(k)] = off(at(k * step));
     std::vector<Eigen::Matrix4d> found;
-    for (int k = 0; k < kSteps; ++k) {
-        const auto value = [&](int i) { return values[static_cast<std::size_t>((i + kSteps) % kSteps)]; };
+    for (int k = 0; k < kDegreesPerTurn; ++k) {
+        const auto value = [&](int i) {
+            return values[static_cast<std::size_t>((i + kDegreesPerTurn) % kDegreesPerTurn)];
+        };
         if (value(k) > value(k - 1) || value(k) >= value(k + 1)) continue;
         double t = k * step, width = step, least = value(k);
-        for (int halving = 0; halving < kHalvings; ++halving) {
+        while (width > kFileAccuracy * step) {
             width *= 0.7;
             for (const double other : {t - width, t + width}) {
                 const double there = off(at(other));
@@ -177,7 +175,7 @@ std::vector<Eigen::Matrix4d> special_forms(const Eigen::Matrix4d& a, const Eigen
                 break;
             }
         }
-        if (least <= kSpecial) found.push_back(at(t));
+        if (least <= kOffShape) found.push_back(at(t));
     }
     return found;
 }
@@ -192,7 +190,6 @@ std::vector<Vec3> rim_places(const Model& model, const std::vector<Loop>& loops,
 {
     constexpr double kFar = 0.25; // of the rim's extent: points of a circle of twelve facets are closer to
                                   // each other
-    constexpr std::size_t kPieces = 4;
     std::vector<std::vector<Vec3>> chains;
     Eigen::AlignedBox3d box;
     for (const Loop& loop : loops)
@@ -203,7 +200,7 @@ std::vector<Vec3> rim_places(const Model& model, const std::vector<Loop>& loops,
         for (std::size_t i = 1; i < chain.size(); ++i) {
             const bool parted = rim == RimIs::straight || (chain[i] - chain[i - 1]).norm() > far;
             const std::vector<Vec3> along = geometry::even_places(std::span(chain).subspan(i - 1, 2),
-                                                                  parted ? kPieces : 1);
+                                                                  parted ? kSamplesPerSide : 1);
             places.insert(places.end(), along.begin() + 1, along.end());
         }
     }
@@ -287,7 +284,7 @@ std::optional<double> QuadricSheet::height(const Vec2& place) const
     return off * quadric.unit;
 }
 
-bool is_pair_of_planes(const Quadric& quadric) { return off_plane_pair(quadric.form) <= kSpecial; }
+bool is_pair_of_planes(const Quadric& quadric) { return off_plane_pair(quadric.form) <= kOffShape; }
 
 RimShapes shapes_of_rim(const Model& model, const std::vector<Loop>& loops, const geometry::Plane& plane)
 {

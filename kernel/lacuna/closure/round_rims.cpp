@@ -27,9 +27,6 @@ using namespace topology;
 
 namespace {
 
-/// Cosine of 45°, the inclination at which rounds are divided.
-constexpr double kHalfway = std::numbers::sqrt2 / 2;
-
 /// Inclination of a facet to an end, and height of the facet along a direction `way`.
 struct Slope {
     double cosine = 0; ///< 1 where the facet is parallel to the end, 0 where it is normal to the end
@@ -137,7 +134,7 @@ private:
         const auto is_part = [&](const Face& other) {
             return other.tag == own.tag && other.origin == own.origin;
         };
-        return least < kHalfway && most > kHalfway && own.given_quads.empty() &&
+        return least < kContinues && most > kContinues && own.given_quads.empty() &&
                std::ranges::count_if(volume_.model.faces, is_part) == 1;
     }
 
@@ -152,11 +149,12 @@ private:
             for (const Triangle& t : volume_.model[face].triangles)
                 all.push_back(slope_of(volume_.model, t, out_, way));
         std::ranges::sort(all, {}, &Slope::height);
-        std::ptrdiff_t wrong = std::ranges::count_if(all, [](const Slope& s) { return s.cosine > kHalfway; });
+        std::ptrdiff_t wrong = std::ranges::count_if(all,
+                                                     [](const Slope& s) { return s.cosine > kContinues; });
         std::ptrdiff_t least = wrong;
         std::optional<double> height;
         for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-            wrong += all[i].cosine > kHalfway ? -1 : 1;
+            wrong += all[i].cosine > kContinues ? -1 : 1;
             if (wrong >= least || !(all[i + 1].height > all[i].height)) continue;
             least = wrong;
             height = (all[i].height + all[i + 1].height) / 2;
@@ -283,7 +281,7 @@ bool is_smooth_cap(const Model& model, FaceId face, const Vec3& axis)
     bool flat = false, upright = false;
     for (const Triangle& t : model[face].triangles) {
         const double cosine = std::abs(slope_of(model, t, axis, axis).cosine);
-        flat = flat || cosine > kHalfway;
+        flat = flat || cosine > kContinues;
         upright = upright || cosine < kUpright;
     }
     return flat && upright;

@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -21,10 +22,6 @@ namespace lacuna::closure {
 using namespace topology;
 
 namespace {
-
-/// Two ends are congruent if, after a rigid fit, their distance is at most this share of their length. The
-/// value is above the sag of round sides and below the change of section in a tapered channel.
-constexpr double kAlike = 0.005;
 
 /// The number of consecutive uses of a loop from `start` that lie in one plane.
 std::size_t flat_run(const Model& model, const Rim& rim, std::size_t start)
@@ -215,15 +212,14 @@ bool all_go_along(const Model& model, const Vec3& way)
     });
 }
 
-/// Whether two runs of a loop, one of them traversed backwards, are congruent within `kAlike`.
+/// Whether two runs of a loop, one of them traversed backwards, are congruent within `kAlikeSizes`.
 bool are_alike(const Model& model, const Rim& rim, const Run& a, const Run& b)
 {
-    constexpr std::size_t kPieces = 32;
     std::vector<Vec3> from = use_places(model, uses_of(rim, a)), to = use_places(model, uses_of(rim, b));
     std::ranges::reverse(to);
-    const double allowed = kAlike * geometry::length(from);
-    from = geometry::even_places(from, kPieces);
-    to = geometry::even_places(to, kPieces);
+    const double allowed = kAlikeSizes * geometry::length(from);
+    from = geometry::even_places(from, kChords);
+    to = geometry::even_places(to, kChords);
     const geometry::RigidFit moved = geometry::fit_rigid(from, to, false);
     for (std::size_t i = 0; i < from.size(); ++i)
         if ((moved(from[i]) - to[i]).norm() > allowed) return false;

@@ -9,6 +9,7 @@
 #include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -42,12 +43,11 @@ constexpr std::size_t kMostSides = 48;
 /// Whether one chain is the other, scaled and shifted; both run in the same direction.
 bool are_similar(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 {
-    constexpr std::size_t kPieces = 16;
     const double scale = geometry::length(b) / geometry::length(a);
     if (!std::isfinite(scale)) return false;
-    const std::vector<Vec3> from = geometry::even_places(a, kPieces), to = geometry::even_places(b, kPieces);
+    const std::vector<Vec3> from = geometry::even_places(a, kChords), to = geometry::even_places(b, kChords);
     const double allowed = kVisible * geometry::length(b);
-    for (std::size_t i = 0; i <= kPieces; ++i)
+    for (std::size_t i = 0; i <= kChords; ++i)
         if ((scale * (from[i] - from[0]) - (to[i] - to[0])).norm() > allowed) return false;
     return true;
 }

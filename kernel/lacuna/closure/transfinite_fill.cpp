@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/swept_patch.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -101,15 +102,14 @@ double twist_of(const std::array<PatchSide, 4>& side)
 geometry::Triangulation grid_within(const Outline& outline, double width, double height,
                                     const RunContext& context)
 {
-    // Least number of cells per direction. The error of the facets on a twisted patch is then 1/256 of that
-    // of two facets. Finer sides are curved; the grid is then as fine as the sides.
-    constexpr Index kCells = 16;
+    // The least number of cells per direction is `kChords`. Finer sides are curved; the grid is then as fine
+    // as the sides.
     // Upper bound of the number of cells. Sides as fine as those of scans would give far more cells than the
     // shape of a void face needs. The grid is then coarser than the sides.
-    constexpr double kMostCells = 1e5;
-    const double coarser = std::max(1.0, std::sqrt(width * height / kMostCells));
-    const Index across = std::max(kCells, static_cast<Index>(width / coarser));
-    const Index along = std::max(kCells, static_cast<Index>(height / coarser));
+    constexpr double kMostFacets = 1e5;
+    const double coarser = std::max(1.0, std::sqrt(width * height / kMostFacets));
+    const Index across = std::max(kChords, static_cast<Index>(width / coarser));
+    const Index along = std::max(kChords, static_cast<Index>(height / coarser));
     geometry::Triangulation inner{outline.flat, {}};
     const auto first = static_cast<Index>(inner.points.size());
     for (Index j = 1; j < along; ++j) {

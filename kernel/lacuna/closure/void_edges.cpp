@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -24,9 +25,6 @@ using namespace topology;
 
 namespace {
 
-/// Largest number of segments of a void edge. With this number, a bend by 90° turns by less than 1.5° from
-/// one segment to the next.
-constexpr int kMostSegments = 64;
 /// Maximum turn between the tangents at both ends of a smooth curve: 3/4 of a circle [radian]. For a full
 /// circle, the control points would be infinitely far away.
 constexpr double kMostTurn = 1.5 * std::numbers::pi;
@@ -88,7 +86,7 @@ std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spa
     const Vec3 from = model.at(model[gap.from].point), to = model.at(model[gap.to].point);
     const double wanted = spacing > 0 ? (to - from).norm() / spacing : 1;
     const int segments = static_cast<int>(
-        std::clamp(std::round(wanted), 1.0, static_cast<double>(kMostSegments)));
+        std::clamp(std::round(wanted), 1.0, static_cast<double>(kFineChords)));
     return inner_points(segments, [&](double f) -> Vec3 { return (1 - f) * from + f * to; });
 }
 
@@ -109,7 +107,7 @@ std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Foll
     const std::size_t walls = follower.walls_at(model[gap.source].point);
     const Vec3 off_from = from - follower.morph(source, target, low, walls);
     const Vec3 off_to = to - follower.morph(source, target, high, walls);
-    return inner_points(kMostSegments, [&](double f) -> Vec3 {
+    return inner_points(kFineChords, [&](double f) -> Vec3 {
         return follower.morph(source, target, low + f * (high - low), walls) + (1 - f) * off_from +
                f * off_to;
     });
@@ -197,7 +195,7 @@ std::vector<Vec3> smooth_course(const Model& model, const Gap& gap, const Tangen
     const double theta = std::min(turn(tangents.leave) + turn(tangents.arrive), kMostTurn);
     const double handle = chord.norm() / (3 * std::pow(std::cos(theta / 4), 2));
     const Vec3 a = from + handle * tangents.leave, b = to - handle * tangents.arrive;
-    return inner_points(kMostSegments, [&](double f) -> Vec3 {
+    return inner_points(kFineChords, [&](double f) -> Vec3 {
         const double g = 1 - f;
         return g * g * g * from + 3 * g * g * f * a + 3 * g * f * f * b + f * f * f * to;
     });

@@ -145,7 +145,8 @@ std::string describe(const Volume& volume)
     } else if (!volume.classification.free_loops.empty()) {
         out << "open:   " << topology::free_edges(volume.volume).size() << " free edges in "
             << volume.classification.free_loops.size()
-            << (volume.classification.free_loops.size() == 1 ? " loop" : " loops") << "; close() seals them\n";
+            << (volume.classification.free_loops.size() == 1 ? " loop" : " loops")
+            << "; close() seals them\n";
     }
     for (const std::string& missing : topology::left_out_in_words(volume.volume)) out << missing << '\n';
     return out.str();

@@ -2,6 +2,7 @@
 #include <lacuna/healing/detail/edge_track.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
@@ -54,9 +55,6 @@ void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> pla
                        const RunContext& context) const
 {
     if (!curve_) return;
-    constexpr int kSteps = 8;            // largest number of steps; they usually converge earlier
-    constexpr double kDifference = 1e-4; // step of the finite difference, as a share of a side's parameter
-                                         // range; the relative error of the tangent is about its square
     std::vector<std::size_t> active;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (places[i].distance <= reach) active.push_back(i);
@@ -75,7 +73,7 @@ void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> pla
     const double high = std::max(params_.front(), params_.back());
     std::vector<double> asked(3 * t.size());
     std::vector<Vec3> at(asked.size());
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kMostSteps; ++step) {
         for (std::size_t k = 0; k < t.size(); ++k) {
             asked[3 * k] = t[k];
             asked[3 * k + 1] = std::clamp(t[k] - h[k], low, high);

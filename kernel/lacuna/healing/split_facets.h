@@ -10,7 +10,7 @@
 //   normals, by which faces end       facet_normals.cpp
 //   points of noisy scans             smooth_noise.cpp
 //   growing one face from a point     grow_face.cpp
-//   steps of stitch()                 stitch.cpp; changes to the model: loose_model.cpp
+//   steps of stitch()                 stitch.cpp, stitch_edges.cpp; changes to the model: loose_model.cpp
 //   distance to an edge               edge_track.cpp
 //   thin and repeated faces           surplus_faces.cpp, coincident_faces.cpp
 //   orientation of faces              orient_groups.cpp

@@ -6,105 +6,29 @@
 #include <lacuna/healing/shared/stitch.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/union_find.h>
-#include <lacuna/healing/detail/edge_track.h>
-#include <lacuna/healing/detail/loose_model.h>
+#include <lacuna/healing/detail/stitcher.h>
 #include <lacuna/healing/detail/surplus_faces.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 
 namespace lacuna::healing {
 
-namespace {
-
-/// Points on an exact curve merge if they are closer than this share of the shortest segment next to them.
-/// Otherwise the facets between them would be slivers.
-constexpr double kJoinOnCurve = 0.25;
-
-class Stitcher {
-public:
-    Stitcher(const topology::Model& model, double tolerance, const RunContext& context, double share)
-        : loose_(model), tolerance_(tolerance), share_(share), context_(context)
-    {
-    }
-
-    StitchReport run()
-    {
-        join_vertices();
-        split_at_vertices();
-        merge_edges();
-        leave_out_thin_faces(loose_, tolerance_, report_);
-        leave_out_repeated_faces(loose_, tolerance_, report_, context_);
-        note_gaps(loose_, tolerance_, report_, context_);
-        return std::move(report_);
-    }
-    topology::Model result() { return loose_.settled(context_); }
-
-private:
-    /// A vertex in the interior of an edge, where the edge will be split.
-    struct Stop {
-        VertexId vertex;
-        EdgeTrack::EdgePosition place;
-        std::size_t node = 0; ///< index of the edge's point with which the vertex merges; 0: a new point is
-                              ///< inserted
-    };
-    /// A point of a merged edge.
-    struct Node {
-        double s = 0, param = 0; ///< position and parameter on the bundle's first edge
-        Index point = -1;
-    };
-    /// An edge that merges into another, and the index of the node that each of its points becomes.
-    struct MergedEdge {
-        EdgeId edge;
-        std::vector<std::size_t> nodes;
-    };
-    /// Coincident edges.
-    struct Bundle {
-        EdgeId first; ///< the edge that gives the bundle its shape and tag
-        std::vector<Node> nodes;
-        std::vector<std::size_t> order; ///< nodes in order along the edge
-        std::vector<MergedEdge> merged;
-        bool keeps_mesh = false;
-    };
-
-    void join_vertices();
-    void collapse_short_edges();
-    void settle_points();
-    void split_at_vertices();
-    std::map<EdgeId, std::vector<Stop>> find_stops();
-    void place_stops(EdgeId e, std::vector<Stop>& stops);
-    std::map<EdgeId, VertexId> begin_elsewhere(std::map<EdgeId, std::vector<Stop>>& stops);
-    void insert_stops(EdgeId e, const std::vector<Stop>& stops, std::optional<VertexId> begin);
-    void merge_edges();
-    std::vector<Bundle> bundles_of(std::vector<EdgeId> group);
-    bool try_add(Bundle& bundle, EdgeId e, double tolerance);
-    void sew_by_vertices(std::vector<Bundle>& bundles);
-    bool add_nodes(Bundle& bundle, EdgeId e, bool reversed,
-                   const std::vector<EdgeTrack::EdgePosition>& places);
-
-    const topology::Model& model() const { return loose_.model(); }
-    NamedEntity named(EdgeId e) const { return {"edge", model()[e].tag}; }
-    const EdgeTrack& track(EdgeId e)
-    {
-        auto& track = tracks_[e];
-        if (!track) {
-            check_cancelled(context_);
-            track.emplace(model(), e, context_);
-        }
-        return *track;
-    }
-
-    LooseModel loose_;
-    double tolerance_, share_;
-    const RunContext& context_;
-    StitchReport report_;
-    std::map<EdgeId, std::optional<EdgeTrack>> tracks_; ///< cache; cleared when edges change
-};
+StitchReport Stitcher::run()
+{
+    join_vertices();
+    split_at_vertices();
+    merge_edges();
+    leave_out_thin_faces(loose_, tolerance_, report_);
+    leave_out_repeated_faces(loose_, tolerance_, report_, context_);
+    note_gaps(loose_, tolerance_, report_, context_);
+    return std::move(report_);
+}
 
 // --- vertices and short edges ------------------------------------------------------------------------------
 
@@ -296,8 +220,8 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
         if (near > taken && near + 1 < edge.points.size()) {
             double radius = tolerance_;
             if (track(e).exact() && !keeps_mesh) {
-                radius = std::max(radius, kJoinOnCurve * std::min((at(near) - at(near - 1)).norm(),
-                                                                  (at(near + 1) - at(near)).norm()));
+                radius = std::max(radius, kOnePoint * std::min((at(near) - at(near - 1)).norm(),
+                                                               (at(near + 1) - at(near)).norm()));
             }
             if ((at(near) - model().at(model()[stop.vertex].point)).norm() <= radius)
                 stop.node = taken = near;
@@ -379,211 +303,6 @@ void Stitcher::insert_stops(EdgeId e, const std::vector<Stop>& stops, std::optio
     loose_.divide(e, cuts);
     ++report_.edges_split;
 }
-
-// --- edges that lie on each other --------------------------------------------------------------------------
-
-void Stitcher::merge_edges()
-{
-    std::map<std::pair<VertexId, VertexId>, std::vector<EdgeId>> groups;
-    for (std::size_t e = 0; e < model().edges.size(); ++e) {
-        const topology::Edge& edge = model().edges[e];
-        if (!loose_.is_gone(EdgeId(e))) groups[std::minmax(edge.from, edge.to)].emplace_back(e);
-    }
-    std::vector<Bundle> bundles;
-    for (auto& [ends, group] : groups) {
-        if (group.size() < 2) continue;
-        for (Bundle& bundle : bundles_of(std::move(group)))
-            if (!bundle.merged.empty()) bundles.push_back(std::move(bundle));
-    }
-    if (bundles.empty()) return;
-
-    // A facet side that gets points: its ends and its new points, numbered as before the points merge. All
-    // sides are collected before any side is changed.
-    struct FilledSide {
-        Index from, to;
-        std::vector<Index> between;
-    };
-    std::vector<FilledSide> filled;
-    std::vector<EdgeId> edges;
-    for (const Bundle& bundle : bundles) {
-        std::vector<std::size_t> position(bundle.nodes.size());
-        for (std::size_t i = 0; i < bundle.order.size(); ++i) position[bundle.order[i]] = i;
-        const auto fill = [&](EdgeId e, const std::vector<std::size_t>& nodes) {
-            edges.push_back(e);
-            for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-                FilledSide side{bundle.nodes[nodes[i]].point, bundle.nodes[nodes[i + 1]].point, {}};
-                for (std::size_t k = position[nodes[i]] + 1; k < position[nodes[i + 1]]; ++k)
-                    side.between.push_back(bundle.nodes[bundle.order[k]].point);
-                if (!side.between.empty()) filled.push_back(std::move(side));
-            }
-        };
-        std::vector<std::size_t> own(model()[bundle.first].points.size());
-        std::iota(own.begin(), own.end(), std::size_t{0});
-        fill(bundle.first, own);
-        for (const MergedEdge& merged : bundle.merged) fill(merged.edge, merged.nodes);
-        topology::Edge& edge = loose_.edge(bundle.first);
-        edge.points.clear();
-        const bool exact = !edge.params.empty();
-        edge.params.clear();
-        for (const std::size_t n : bundle.order) {
-            edge.points.push_back(bundle.nodes[n].point);
-            if (exact) edge.params.push_back(bundle.nodes[n].param);
-        }
-    }
-    settle_points();
-    topology::SidePoints sides;
-    for (FilledSide& side : filled) sides.add(side.from, side.to, std::move(side.between));
-    loose_.cut(sides, edges);
-    for (const Bundle& bundle : bundles) {
-        for (const MergedEdge& merged : bundle.merged) {
-            if (loose_.is_gone(merged.edge)) continue;
-            loose_.merge(merged.edge, bundle.first);
-            ++report_.edges_merged;
-        }
-    }
-}
-
-std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
-{
-    // Exact curves come first, so that polylines take the shape of an exact curve.
-    std::stable_sort(group.begin(), group.end(),
-                     [&](EdgeId a, EdgeId b) { return track(a).exact() && !track(b).exact(); });
-    std::vector<Bundle> bundles;
-    for (const EdgeId e : group) {
-        if (std::any_of(bundles.begin(), bundles.end(),
-                        [&](Bundle& bundle) { return try_add(bundle, e, tolerance_); }))
-            continue;
-        Bundle& own = bundles.emplace_back();
-        own.first = e;
-        own.keeps_mesh = loose_.keeps_mesh(e);
-        const topology::Edge& edge = model()[e];
-        for (std::size_t i = 0; i < edge.points.size(); ++i) {
-            own.nodes.push_back(
-                {static_cast<double>(i), edge.params.empty() ? 0 : edge.params[i], edge.points[i]});
-            own.order.push_back(i);
-        }
-    }
-    if (share_ > 0) sew_by_vertices(bundles);
-    return bundles;
-}
-
-/// Merge two free edges with exact curves that are further apart than the tolerance, if their distance is at
-/// most `share_` times the length of the shorter one.
-void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
-{
-    std::vector<Bundle*> free;
-    for (Bundle& bundle : bundles)
-        if (bundle.merged.empty() && loose_.is_free(bundle.first) && track(bundle.first).exact())
-            free.push_back(&bundle);
-    if (free.size() != 2) return;
-    const EdgeId a = free[0]->first, b = free[1]->first;
-    const FaceId face_a = loose_.users(a)[0], face_b = loose_.users(b)[0];
-    if (face_a == face_b || model()[a].from == model()[a].to) return;
-    const double reach = share_ * std::min(track(a).length(), track(b).length());
-    if (!try_add(*free[0], b, reach)) return;
-    report_.notes.push_back(Message("healing.edges_sewn",
-                                    "{} of {} and {} of {} have the same ends and are up to {:.3g} apart; "
-                                    "they were merged into the first",
-                                    named(a), entity_of(model(), face_a), named(b),
-                                    entity_of(model(), face_b),
-                                    greatest_gap(track(a), track(b), tolerance_, context_))
-                                .remedy("to decide this yourself, give a tolerance")
-                                .as_warning());
-    std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
-}
-
-/// Merge an edge into a bundle, if it stays close to the bundle's first edge.
-/// @param tolerance  largest distance between edges that merge.
-/// @return  whether the edge was merged
-bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
-{
-    const topology::Edge& first = model()[bundle.first];
-    const topology::Edge& edge = model()[e];
-    const EdgeTrack& along = track(bundle.first);
-    const EdgeTrack& own = track(e);
-    const bool closed = edge.from == edge.to;
-    for (const bool reversed : {false, true}) {
-        if (!closed && reversed != (edge.from != first.from)) continue;
-        std::vector<Vec3> samples = own.samples();
-        std::vector<Vec3> samples_along = along.samples();
-        if (reversed) {
-            std::reverse(samples.begin(), samples.end());
-            std::reverse(samples_along.begin(), samples_along.end());
-        }
-        const auto places = along.follow(samples, tolerance, context_);
-        if (!places || !own.follow(samples_along, tolerance, context_)) continue;
-        std::vector<EdgeTrack::EdgePosition> at_nodes;
-        const std::size_t stride = own.exact() ? 2 : 1;
-        for (std::size_t i = 0; i < places->size(); i += stride) at_nodes.push_back((*places)[i]);
-        return add_nodes(bundle, e, reversed, at_nodes);
-    }
-    return false;
-}
-
-/// Merge the points of an edge into the nodes of a bundle; a point without a near node becomes a new node.
-/// @return false, with a note, if a kept mesh does not permit this.
-bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
-                         const std::vector<EdgeTrack::EdgePosition>& places)
-{
-    std::vector<Index> points = model()[e].points;
-    if (reversed) std::reverse(points.begin(), points.end());
-    const auto at = [&](Index p) -> const Vec3& { return model().at(p); };
-    const bool keeps_mesh = loose_.keeps_mesh(e);
-    const bool may_slide = !bundle.keeps_mesh && !keeps_mesh &&
-                           (track(e).exact() || track(bundle.first).exact());
-    std::vector<Node> nodes = bundle.nodes;
-    std::vector<std::size_t> order = bundle.order;
-    std::vector<std::size_t> become{order.front()};
-    std::size_t last = 0; // position in `order` of the node that the previous point became
-    bool fits = true;
-    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-        const double s = places[i].s;
-        std::size_t after = last + 1;
-        while (after + 1 < order.size() && nodes[order[after]].s <= s) ++after;
-        double radius = tolerance_;
-        if (may_slide) {
-            const double side = std::min(
-                {(at(points[i]) - at(points[i - 1])).norm(), (at(points[i + 1]) - at(points[i])).norm(),
-                 (at(nodes[order[after]].point) - at(nodes[order[after - 1]].point)).norm()});
-            radius = std::max(radius, kJoinOnCurve * side);
-        }
-        const auto apart = [&](std::size_t k) { return (at(nodes[order[k]].point) - at(points[i])).norm(); };
-        const std::size_t near = apart(after) < apart(after - 1) ? after : after - 1;
-        if (apart(near) <= radius) {
-            become.push_back(order[near]);
-            last = near;
-            continue;
-        }
-        fits = fits && !bundle.keeps_mesh;
-        order.insert(order.begin() + static_cast<std::ptrdiff_t>(after), nodes.size());
-        become.push_back(nodes.size());
-        nodes.push_back({std::max(s, nodes[order[after - 1]].s), places[i].param, points[i]});
-        last = after;
-    }
-    become.push_back(order.back());
-    if (keeps_mesh) fits = fits && std::set<std::size_t>(become.begin(), become.end()).size() == order.size();
-    if (!fits) {
-        report_.notes.push_back(
-            Message(
-                "healing.kept_meshes_differ",
-                "{} and {} coincide, but a kept mesh has other nodes there, so the faces stay unconnected",
-                named(bundle.first), named(e))
-                .remedy("load with keep_mesh = false, or make the meshes match"));
-        return false;
-    }
-    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-        loose_.join(points[i], nodes[become[i]].point);
-        if (nodes[become[i]].point == points[i] && places[i].distance > tolerance_)
-            loose_.move(points[i], places[i].at);
-    }
-    bundle.nodes = std::move(nodes);
-    bundle.order = std::move(order);
-    bundle.keeps_mesh = bundle.keeps_mesh || keeps_mesh;
-    bundle.merged.push_back({e, std::move(become)});
-    return true;
-}
-
-} // namespace
 
 std::string StitchReport::summary() const
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/surplus_faces.h>
 
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/healing/detail/coincident_faces.h>
 #include <lacuna/healing/detail/edge_track.h>
 #include <lacuna/topology/open_volume.h>
@@ -12,11 +13,6 @@
 namespace lacuna::healing {
 
 namespace {
-
-/// Two free edges with the same ends look like a gap if their distance is at most this share of the shorter
-/// edge's length. The two half circles of a hole do not look like a gap: their distance is 0.45 of their
-/// length.
-constexpr double kLooksLikeGap = 0.25;
 
 void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector<FaceId>& alike,
                       const std::vector<int>& class_of, const std::vector<std::vector<EdgeId>>& edges)
@@ -137,7 +133,7 @@ void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report, 
                 const EdgeTrack a(model, group[i], context);
                 const EdgeTrack b(model, group[k], context);
                 const double gap = greatest_gap(a, b, tolerance, context);
-                if (gap <= tolerance || gap > kLooksLikeGap * std::min(a.length(), b.length())) continue;
+                if (gap <= tolerance || gap > kOnePoint * std::min(a.length(), b.length())) continue;
                 report.notes.push_back(
                     Message("healing.gap",
                             "{} of {} and {} of {} have the same ends and a gap of {:.3g}, more than the "

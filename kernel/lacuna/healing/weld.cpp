@@ -60,10 +60,8 @@ private:
 /// file repeats each point about six times.
 std::vector<Index> weld_equal(std::span<const Vec3> points)
 {
-    // Expected repeats of a point; if no point repeats, four points share a slot, which only costs time.
-    constexpr std::size_t kRepeats = 4;
     std::vector<Index> result(points.size());
-    CellTable table(points.size(), points.size() / kRepeats);
+    CellTable table(points.size(), points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         GridCell bits;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -98,7 +96,7 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
     const auto cell_at = [&](const Vec3& p) {
         const Eigen::Array3d cell = ((p - box.min()) / width).array().floor();
         return GridCell{static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
-                    static_cast<std::int64_t>(cell.z())};
+                        static_cast<std::int64_t>(cell.z())};
     };
     std::size_t different = 0;
     for (std::size_t i = 0; i < points.size(); ++i) different += result[i] == static_cast<Index>(i) ? 1 : 0;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/detail/alignment.h>
 
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -16,8 +19,6 @@ namespace {
 /// Score of a rotation by 180°, where a residual as large as the loop's length has the score 1. The value is
 /// small, so that rotation only decides between fits with about the same residual.
 constexpr double kTurnWeight = 0.1;
-/// Number of golden-section steps; they reduce the interval to a millionth of a sample distance.
-constexpr int kSections = 30;
 
 using Hard = std::map<VertexId, VertexId>;
 
@@ -62,7 +63,7 @@ std::vector<Vec3> with(std::vector<Vec3> points, const std::vector<Vec3>& more)
 }
 
 /// Number of possible starts on a loop paired by length: that of its given nodes or samples.
-std::size_t places_of(const LoopShape& target) { return target.by_sides ? given_sides(target) : kSamples; }
+std::size_t places_of(const LoopShape& target) { return target.by_sides ? given_sides(target) : kFineChords; }
 
 /// The samples of a target under an alignment, in the order of the corresponding `source_samples()`.
 std::vector<Vec3> target_samples(const LoopShape& target, const Alignment& alignment, bool by_length)
@@ -112,10 +113,10 @@ Alignment slid(const Problem& problem, const LoopShape& source, const LoopShape&
         rate(moved, problem, source, target, from, target_samples(target, moved, true), known, true);
         return moved;
     };
-    const double golden = (std::sqrt(5.0) - 1) / 2, step = 1.0 / kSamples;
+    const double golden = (std::sqrt(5.0) - 1) / 2, step = 1.0 / kFineChords;
     double low = alignment.offset - step, high = alignment.offset + step;
     Alignment a = at(high - golden * (high - low)), b = at(low + golden * (high - low));
-    for (int i = 0; i < kSections; ++i) {
+    while (high - low > kFileAccuracy * step) {
         if (a.score <= b.score) {
             high = low + golden * (high - low);
             b = a;

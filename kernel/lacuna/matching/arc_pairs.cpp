@@ -5,6 +5,7 @@
 #include <lacuna/matching/detail/arc_pairs.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/limits.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +20,6 @@ namespace {
 /// Corners further apart than this share of the longest side next to them are not paired. On equal sides,
 /// another corner is then closer.
 constexpr double kFarCorner = 0.5;
-/// Vertices closer than this share of the shortest side next to them are paired; otherwise an edge is split.
-/// A higher value twists void edges more; a lower one makes shorter edges.
-constexpr double kNear = 0.25;
 
 double share(double x)
 {
@@ -180,7 +178,7 @@ public:
             for (std::size_t j = 0; j < taken_.size(); ++j) {
                 if (!wants(source_, partner_, i) || !wants(target_, taken_, j)) continue;
                 const double reach = std::min(
-                    most_twist_, kNear * std::min(side(source_, i, true), side(target_, j, true)));
+                    most_twist_, kOnePoint * std::min(side(source_, i, true), side(target_, j, true)));
                 const double distance = round_distance(source_.at[i], place_[j]);
                 if (distance <= reach) near.emplace_back(distance, i, j);
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/shared/corners.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 
 #include <algorithm>
@@ -12,9 +13,6 @@ using namespace topology;
 
 namespace {
 
-/// Smallest turn of a loop at a corner [degrees]. A node must lie at a corner. The value is above the turn
-/// between the facets of coarse curves and below that of obtuse corners.
-constexpr double kCornerAngle = 15;
 /// A corner turns by more than this factor times the turn between the facets next to it. The turns between
 /// facets of one curve differ by less than this factor.
 constexpr double kOverSmooth = 1.5;
@@ -41,7 +39,7 @@ bool is_corner(const Model& model, const std::vector<EdgeUse>& walk, std::size_t
     const double here = turn(model.at(before.back()) - model.at(before[before.size() - 2]),
                              model.at(after[1]) - model.at(after[0]));
     const double smooth = std::max(bend_at_end(model, before, false), bend_at_end(model, after, true));
-    return here > std::max(kCornerAngle, kOverSmooth * smooth);
+    return here > std::max(kCreaseAngle / 2, kOverSmooth * smooth);
 }
 
 } // namespace lacuna::matching

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
@@ -29,7 +30,9 @@ using namespace topology;
 namespace {
 
 /// Number of sample points of a section between two side lines, and of a closed section that crosses no side
-/// line. An affine fit needs four points; twice as many reduce the effect of the facets.
+/// line. An affine fit needs four points; twice as many reduce the effect of the facets. With 16 and 64
+/// points, a twisted prism of four sides closes to 0.7 % of its volume instead of 0.5 %, and void faces
+/// beside a bent ring of 14 facets cross its wall.
 constexpr int kSamplesBetween = 8;
 constexpr int kSamplesRound = 48;
 
@@ -392,14 +395,13 @@ bool cut_to_shared(std::vector<LevelLine>& lines)
 /// cross the same side lines.
 PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& part,
                          const std::vector<double>& heights, const std::vector<Vec3>& up,
-                         const std::map<FacetSide, std::size_t>& on_line, int count,
-                         const RunContext& context)
+                         const std::map<FacetSide, std::size_t>& on_line, const RunContext& context)
 {
     std::vector<double> levels;
     // The first and the last level are slightly inside the wall part, because facets have corners on the
     // rims.
-    for (int k = 0; k <= count; ++k)
-        levels.push_back(std::clamp(static_cast<double>(k) / count, kRoundoff, 1 - kRoundoff));
+    for (int k = 0; k <= kFineChords; ++k)
+        levels.push_back(std::clamp(static_cast<double>(k) / kFineChords, kRoundoff, 1 - kRoundoff));
     const auto facets = facets_at_levels(volume, part, heights, levels);
     if (!facets) return {};
     std::vector<LevelLine> lines;
@@ -463,14 +465,13 @@ void add_to_loops(const OpenVolume& volume, const std::vector<FaceId>& part, con
 
 } // namespace
 
-Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lines, int count,
-                      const RunContext& context)
+Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lines, const RunContext& context)
 {
     const Model& model = volume.model;
     Sections result;
     result.heights = wall_heights(volume, lines, context);
     const std::vector<Vec3> up = ways_up(volume, result.heights);
-    result.levels.resize(static_cast<std::size_t>(count) + 1);
+    result.levels.resize(kFineChords + 1);
     std::map<FacetSide, std::size_t> on_line;
     for (std::size_t l = 0; l < lines.size(); ++l) {
         for (const EdgeUse& use : lines[l].uses) {
@@ -485,7 +486,7 @@ Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lin
     if (std::ranges::any_of(volume.faces(Role::wall), [&](FaceId f) { return model[f].surface != nullptr; }))
         threads.threads = 1;
     parallel_each(threads, walls.size(), 1, [&](std::size_t p) {
-        parts[p] = sections_of(volume, walls[p], result.heights, up, on_line, count, context);
+        parts[p] = sections_of(volume, walls[p], result.heights, up, on_line, context);
     });
     for (std::size_t p = 0; p < walls.size(); ++p) {
         result.closed = result.closed || parts[p].closed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/detail/loop_shape.h>
 
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/matching/shared/corners.h>
@@ -16,8 +17,8 @@ using namespace topology;
 std::vector<Vec3> even_samples(const LoopShape& shape, double start, bool backward)
 {
     std::vector<Vec3> result;
-    for (std::size_t i = 0; i < kSamples; ++i) {
-        const double s = start + (backward ? -1 : 1) * shape.length * static_cast<double>(i) / kSamples;
+    for (std::size_t i = 0; i < kFineChords; ++i) {
+        const double s = start + (backward ? -1 : 1) * shape.length * static_cast<double>(i) / kFineChords;
         result.push_back(
             geometry::point_at(shape.points, shape.arc, s - shape.length * std::floor(s / shape.length)));
     }
@@ -29,7 +30,7 @@ std::vector<Vec3> edge_samples(const LoopShape& shape, std::size_t start, bool b
     std::vector<Vec3> result;
     const std::size_t n = shape.vertices.size();
     const auto at = [&](double s) { result.push_back(geometry::point_at(shape.points, shape.arc, s)); };
-    const std::size_t each = std::max<std::size_t>(1, kSamples / n);
+    const std::size_t each = std::max<std::size_t>(1, kFineChords / n);
     for (std::size_t k = 0; k < n; ++k) {
         const std::size_t edge = backward ? (start + 2 * n - k - 1) % n : (start + k) % n;
         const double from = shape.vertex_arc[edge];

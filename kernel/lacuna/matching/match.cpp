@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/matching/detail/arc_pairs.h>
 #include <lacuna/matching/detail/arrange.h>
@@ -233,8 +234,8 @@ private:
                 known.add(sampled_[other]);
                 continue;
             }
-            known.from.insert(known.from.end(), kSamples, problem_.source[other].centroid);
-            known.to.insert(known.to.end(), kSamples, problem_.target[its].centroid);
+            known.from.insert(known.from.end(), kFineChords, problem_.source[other].centroid);
+            known.to.insert(known.to.end(), kFineChords, problem_.target[its].centroid);
         }
         chosen_[s] = refined(problem_, s, t, chosen_[s], known);
     }

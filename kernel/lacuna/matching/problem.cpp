@@ -2,6 +2,7 @@
 #include <lacuna/matching/detail/problem.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/matching/shared/guides.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/give_mesh.h>
@@ -73,10 +74,6 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
     }
 }
 
-/// Number of intervals between levels. Even along a full turn, the direction changes by less than 6° from
-/// level to level.
-constexpr int kLevels = 64;
-
 /// Points of the first section through the given walls, and the corresponding points of the last section.
 /// They determine the rotation of loops without walls; in a bend, the rims alone do not. Empty if every
 /// source loop has a wall, or if no wall joins the ends.
@@ -86,7 +83,7 @@ PointPairs led_by_walls(const Problem& problem, const std::vector<SideLine>& lin
         return std::ranges::none_of(loop.vertices, [&](VertexId v) { return problem.on_wall[v.index()]; });
     });
     if (!bare || !problem.backward) return {};
-    Sections sections = cut_sections(problem.volume, lines, kLevels, problem.context);
+    Sections sections = cut_sections(problem.volume, lines, problem.context);
     return {std::move(sections.levels.front()), std::move(sections.levels.back())};
 }
 
@@ -179,7 +176,7 @@ bool Problem::has_hard(std::size_t s) const
 
 PointPairs Problem::led_near(std::size_t s) const
 {
-    constexpr std::size_t kMost = kNearLoops * kSamples;
+    constexpr std::size_t kMost = kNearLoops * kFineChords;
     if (led.from.size() <= kMost) return led;
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t p = 0; p < led.from.size(); ++p)

@@ -22,7 +22,6 @@ using namespace topology;
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Least climb of an edge on a side line. The climb is the sine of the angle between the edge and the level
 /// lines, so the angle is 30°. Edges that climb less separate walls that are stacked on each other.
 constexpr double kLevel = 0.5;
@@ -108,7 +107,7 @@ std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::
                                const std::vector<SideLine>& lines, Digits digits, const RunContext& context)
 {
     const Model& model = volume.model;
-    std::vector<double> heights(model.points.size(), kNaN);
+    std::vector<double> heights(model.points.size(), std::numeric_limits<double>::quiet_NaN());
     const std::vector<Index> low = rim_points(model, volume.faces(Role::source));
     const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
     const std::map<Index, double> on_lines = heights_along(model, lines);
@@ -308,7 +307,8 @@ std::vector<double> height_gradient(const OpenVolume& volume, const std::vector<
             }
         }
     }
-    for (std::size_t p = 0; p < sum.size(); ++p) sum[p] = weight[p] > 0 ? sum[p] / weight[p] : kNaN;
+    for (std::size_t p = 0; p < sum.size(); ++p)
+        sum[p] = weight[p] > 0 ? sum[p] / weight[p] : std::numeric_limits<double>::quiet_NaN();
     return sum;
 }
 
@@ -324,7 +324,7 @@ double climb(const Model& model, EdgeId edge, const std::vector<double>& heights
     }
     const double rise = heights[static_cast<std::size_t>(points.back())] -
                         heights[static_cast<std::size_t>(points.front())];
-    return most > 0 ? rise / most : kNaN;
+    return most > 0 ? rise / most : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& context)

@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/alike_edges.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/quads/shared/symmetry.h>
 #include <lacuna/surface/detail/plane_loops.h>
@@ -18,9 +19,6 @@ using namespace topology;
 
 namespace {
 
-/// Number of intervals between sample points of an edge, by which edges of a face are compared: enough to
-/// distinguish an arc from its chord. Heuristic.
-constexpr std::size_t kPerEdge = 4;
 /// Faces with more edges are not compared, because the cost is quadratic in the number of edges. Heuristic.
 constexpr std::size_t kMostEdges = 512;
 
@@ -31,8 +29,8 @@ std::vector<std::vector<EdgeId>> alike_edges(const Model& model, FaceId face)
     const Vec3 normal = face_area_vector(model, face).stableNormalized();
     const geometry::Plane plane = geometry::plane_across(face_centroid(model, face), normal);
     std::vector<double> shares;
-    for (std::size_t i = 0; i <= kPerEdge; ++i)
-        shares.push_back(static_cast<double>(i) / static_cast<double>(kPerEdge));
+    for (std::size_t i = 0; i <= kSamplesPerSide; ++i)
+        shares.push_back(static_cast<double>(i) / static_cast<double>(kSamplesPerSide));
     std::vector<EdgeId> edges;
     std::vector<int> segment;
     quads::PlanarRegion region;
@@ -41,9 +39,10 @@ std::vector<std::vector<EdgeId>> alike_edges(const Model& model, FaceId face)
         for (const EdgeUse& use : loop.uses) {
             if (edges.size() == kMostEdges) return {};
             const std::vector<Vec3> points = edge_points(model, use.edge, shares);
-            for (std::size_t i = 0; i < kPerEdge; ++i) {
+            for (std::size_t i = 0; i < kSamplesPerSide; ++i) {
                 cycle.push_back(static_cast<Index>(region.points.size()));
-                region.points.push_back(geometry::to_plane(plane, points[use.reversed ? kPerEdge - i : i]));
+                region.points.push_back(
+                    geometry::to_plane(plane, points[use.reversed ? kSamplesPerSide - i : i]));
                 segment.push_back(static_cast<int>(edges.size()));
             }
             edges.push_back(use.edge);

@@ -4,6 +4,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
+#include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/shared/imprint.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -21,10 +22,6 @@ namespace {
 /// Two vertices without a side line are paired only if their positions on the two rims, as shares of the
 /// rims' lengths, differ by less than this. Heuristic.
 constexpr double kFarRound = 0.125;
-
-/// Inner loops of two faces are matched if their vertices are closer to each other than this share of the
-/// loop's radius. Heuristic.
-constexpr double kNearInside = 0.5;
 
 /// An item of a face's loop: an inner edge, or a sequence of rim edges between two inner edges.
 struct Item {
@@ -202,7 +199,7 @@ private:
             for (std::size_t a = 0; a < walks_.size(); ++a) {
                 if (face_[a] != source || done_.contains(a)) continue;
                 std::optional<std::pair<std::size_t, std::size_t>> best;
-                double least = kNearInside;
+                double least = kAlikeLoops;
                 for (std::size_t b = 0; b < walks_.size(); ++b) {
                     if (face_[b] != target || done_.contains(b) || walks_[b].size() != walks_[a].size())
                         continue;
@@ -239,7 +236,7 @@ private:
             const Vec3 from = flat((*fit_)(model_.at(model_[a[k].from].point)));
             far = std::max(far, (to - from).norm());
         }
-        return radius > 0 ? far / radius : kNearInside;
+        return radius > 0 ? far / radius : kAlikeLoops;
     }
 
     /// The affine map from the source's rims to the target's rims, and the normal of the target.

@@ -2,9 +2,11 @@
 #include <lacuna/surface/detail/closed_edges.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/flat_ends.h>
+#include <lacuna/surface/detail/imprint_rules.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,20 +88,19 @@ std::vector<double> directions(const Circle& circle, std::size_t steps)
 /// source's edge, as `alike_closed_edges()` describes.
 ClosedPair turned(const Circle& low, const Circle& high)
 {
-    constexpr std::size_t kSteps = 360; ///< one degree is accurate enough for the start of an edge
-    const std::vector<double> a = directions(low, kSteps), b = directions(high, kSteps);
+    const std::vector<double> a = directions(low, kDegreesPerTurn), b = directions(high, kDegreesPerTurn);
     const bool back = (low.area > 0) != (high.area > 0);
     std::size_t best = 0;
     double most = -2;
-    for (std::size_t shift = 0; shift < kSteps; ++shift) {
+    for (std::size_t shift = 0; shift < kDegreesPerTurn; ++shift) {
         double sum = 0;
-        for (std::size_t k = 0; k < kSteps; ++k)
-            sum += std::cos(a[k] - b[(back ? shift + kSteps - k : shift + k) % kSteps]);
+        for (std::size_t k = 0; k < kDegreesPerTurn; ++k)
+            sum += std::cos(a[k] - b[(back ? shift + kDegreesPerTurn - k : shift + k) % kDegreesPerTurn]);
         if (sum <= most) continue;
         most = sum;
         best = shift;
     }
-    const double from = static_cast<double>(best) / kSteps;
+    const double from = static_cast<double>(best) / kDegreesPerTurn;
     return {low.edge, high.edge, from, back ? from - 1 : from + 1};
 }
 
@@ -108,15 +109,12 @@ ClosedPair turned(const Circle& low, const Circle& high)
 std::vector<ClosedPair> alike_closed_edges(const Model& model, const EndsMap& map,
                                            std::span<const EdgeId> source, std::span<const EdgeId> target)
 {
-    // Circles are paired if their dissimilarity is below this; they then still overlap by more than half.
-    // Heuristic.
-    constexpr double kAlike = 0.5;
     const std::vector<Circle> low = circles(model, map, false, source);
     const std::vector<Circle> high = circles(model, map, true, target);
     std::vector<ClosedPair> pairs;
     std::set<std::size_t> used_low, used_high;
     for (;;) {
-        double least = kAlike;
+        double least = kAlikeLoops;
         std::optional<std::pair<std::size_t, std::size_t>> best;
         for (std::size_t i = 0; i < low.size(); ++i) {
             for (std::size_t j = 0; j < high.size(); ++j) {

@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/edge_turning.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -15,14 +16,11 @@ using namespace topology;
 
 namespace {
 
-/// Samples of an exact curve, enough to locate its bends. Heuristic.
-constexpr std::size_t kCurveSides = 64;
-
 std::vector<Vec3> line_of(const Model& model, EdgeId edge)
 {
     if (model[edge].curve == nullptr) return edge_line(model, edge);
     std::vector<double> at;
-    for (std::size_t i = 0; i <= kCurveSides; ++i) at.push_back(static_cast<double>(i) / kCurveSides);
+    for (std::size_t i = 0; i <= kFineChords; ++i) at.push_back(static_cast<double>(i) / kFineChords);
     return edge_points(model, edge, at);
 }
 

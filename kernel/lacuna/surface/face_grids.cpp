@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/face_grids.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/names_of.h>
 
@@ -26,12 +27,9 @@ constexpr double kFairMean = 0.7, kFairEven = 0.6;
 /// force the larger number on both sides.
 bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
 {
-    // As `alike()`, for numbers of quads instead of lengths. If neither side has more than four quads, any
-    // ratio is accepted. Heuristic.
-    constexpr int kUnlike = 3, kFew = 4;
     return std::ranges::all_of(pairs, [&](const SidePair& sides) {
         const int a = total(seeds, sides[0]), b = total(seeds, sides[1]);
-        return std::max(a, b) <= std::max(kUnlike * std::min(a, b), kFew);
+        return std::max(a, b) <= kUnlike * std::min(a, b);
     });
 }
 
@@ -39,7 +37,7 @@ bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
 /// - the style is not `automatic`, or a number of quads across narrow places is requested;
 /// - the grid has at least the quality `kFairMean`, `kFairEven`;
 /// - some facet is inclined by more than 60° to the face's mean normal, so that flattening for the paver may
-///   fail.
+///   fail, or makes good quads poor.
 bool is_fairly_mapped(const SeedTask& task, FaceId face, const MappedFace& mapped)
 {
     if (task.style != QuadStyle::automatic || task.sizing.gap > 0) return true;
@@ -115,11 +113,10 @@ bool is_free(const FaceGrids& grids, const Seeds& seeds, FaceId face)
 
 bool faces_one_way(const Model& model, FaceId face, const Vec3& normal)
 {
-    constexpr double kSteepest = 0.5; // cosine of 60°; heuristic
     const std::vector<Triangle>& facets = model[face].triangles;
     return std::ranges::all_of(facets, [&](const Triangle& t) {
         const Vec3 area = facet_area_vector(model, t);
-        return area.dot(normal) >= kSteepest * area.norm();
+        return area.dot(normal) >= kPoorQuad * area.norm();
     });
 }
 

@@ -16,10 +16,6 @@ using namespace topology;
 
 namespace {
 
-/// Maximum ratio of the lengths of opposite sides of a mapped face. If it is larger, the face is mapped only
-/// on request, because the lengths of its quads would have the same ratio. Heuristic.
-constexpr double kUnlike = 3;
-
 std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
 {
     std::vector<EdgeId> edges;

@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/fill_face.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/flatten.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -63,12 +64,6 @@ private:
     Eigen::AlignedBox2d box_; ///< bounding box of the rim
 };
 
-/// Flattening stops when the energy decreases by less than this share. A coarse solution is enough, because
-/// the size is corrected for the remaining distortion. Measured: two faces with holes took 150 ms with 1e-6,
-/// 100 ms with 1e-4 and 50 ms with 1e-3. On four curved sources at four sizes, the minimum scaled Jacobian
-/// changed by at most 0.02.
-constexpr double kSettled = 1e-3;
-
 Message not_flat(const Model& model, FaceId face, const char* why)
 {
     const bool open = model[face].origin == Origin::made_void;
@@ -82,7 +77,7 @@ Message not_flat(const Model& model, FaceId face, const char* why)
 /// The facets of a face, flattened.
 geometry::Flattened laid_flat(const Model& model, FaceId face, const FineFacets& fine)
 try {
-    return geometry::flatten(fine.points, fine.triangles, {.settled = kSettled});
+    return geometry::flatten(fine.points, fine.triangles, {.settled = kVisible});
 } catch (const InvalidInput& error) { // the error names facets but not the face
     throw InvalidInput(
         not_flat(model, face, "are in several parts, closed or have a handle").attempt(error.message()));
@@ -200,7 +195,6 @@ private:
 /// cuts the tip off. If the move would make quads poor, the node stays.
 void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<Vec2>& tips)
 {
-    constexpr double kSpoiled = 0.2; // minimum sine of a corner; heuristic
     for (const Vec2& tip : tips) {
         std::size_t nearest = rim;
         for (std::size_t i = rim; i < filling.points.size(); ++i) {
@@ -214,7 +208,7 @@ void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<V
         });
         const double before = quads::least_scaled_jacobian(filling.points, around);
         const Vec2 old = std::exchange(filling.points[nearest], tip);
-        if (quads::least_scaled_jacobian(filling.points, around) < std::min(kSpoiled, before))
+        if (quads::least_scaled_jacobian(filling.points, around) < std::min(kFlatQuad, before))
             filling.points[nearest] = old;
     }
 }

@@ -7,6 +7,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/surface/detail/alike_ends.h>
 #include <lacuna/surface/detail/closed_edges.h>
@@ -281,7 +282,6 @@ private:
     {
         // A point on a seam has two sets of parameters. At the ends of the edge, take the parameters of a
         // point slightly inside the edge instead.
-        constexpr double kWayIn = 1e-6;
         const Face& on = base_.model[face];
         std::vector<Vec2> line{piece.line.front()};
         const double step = on.kind == "plane" ? kInfinity : facet_side(face);
@@ -304,7 +304,7 @@ private:
             for (std::size_t i = 0; i < line.size(); ++i) {
                 const Vec2& inward = line[i == 0 ? 1 : i + 1 == line.size() ? i - 1 : i];
                 points.push_back(builder().at(edge.points[i]));
-                uv.push_back(parameters(face, line[i] + kWayIn * (inward - line[i])));
+                uv.push_back(parameters(face, line[i] + kFileAccuracy * (inward - line[i])));
                 if (i > 0) uv.back() = unwrapped(face, uv.back(), uv[i - 1]);
                 edge.params.push_back(static_cast<double>(i));
             }

@@ -15,8 +15,6 @@ namespace lacuna::surface {
 
 namespace {
 
-/// Cost of each side by which a sum is below its floor: larger than any term of the objective. Heuristic.
-constexpr double kBelowFloor = 1e6;
 /// Maximum number of free variables for which pairs of vectors are tried. A board of 32 × 32 mapped faces has
 /// 64. A larger value gives better numbers but takes longer. Heuristic.
 constexpr std::size_t kByTwos = 64;
@@ -278,13 +276,13 @@ private:
     static double term_cost(const Term& term, std::int64_t sum)
     {
         const auto n = static_cast<double>(sum);
-        if (term.weight == 0) return kBelowFloor * std::max(0.0, term.wanted - n);
+        if (term.weight == 0) return kDecides * std::max(0.0, term.wanted - n);
         return wish_cost(n, term.wanted, term.weight);
     }
 
     [[nodiscard]] double below(std::size_t v, std::int64_t count) const
     {
-        return kBelowFloor * static_cast<double>(std::max<std::int64_t>(0, variable(v).least - count));
+        return kDecides * static_cast<double>(std::max<std::int64_t>(0, variable(v).least - count));
     }
 
     /// Change of the objective if the variables move along a vector `times` times.
@@ -309,14 +307,13 @@ private:
     /// Take the step with the largest gain. @return  false if no step has a gain
     bool step()
     {
-        constexpr int kMostStep = 1 << 16;
         double best = -kRoundoff * (1 + std::abs(cost_));
         const std::vector<std::pair<std::size_t, std::int64_t>>* along = nullptr;
         std::int64_t times = 0;
         for (const auto& vector : vectors_) {
             for (const int sign : {1, -1}) {
                 double last = 0;
-                for (std::int64_t size = 1; size <= kMostStep; size *= 2) {
+                for (std::int64_t size = 1;; size *= 2) { // ends, because costs grow with every number
                     const double cost = change(vector, sign * size);
                     if (cost < best) {
                         best = cost;

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/angle.h>
@@ -69,9 +70,6 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangl
     problem.least_energy = true;
     return geometry::solve_harmonic(problem, context);
 }
-
-/// Number of columns at which sections are sampled: one per degree.
-constexpr std::size_t kColumnsRound = 360;
 
 Vec3 on_facets(const Model& model, const WallPosition& place)
 {
@@ -244,22 +242,20 @@ std::shared_ptr<const LinkingMap> map_of(const OpenVolume& volume, const Linking
 
 void LinkingMap::measure_heights(const Model& model)
 {
-    // Number of columns along the walls, and of steps along each; heuristic.
-    constexpr std::size_t kColumns = 16, kSteps = 64;
     std::size_t near = kNoIndex;
-    even_.assign(kSteps + 1, 0.0);
-    for (std::size_t c = 0; c < kColumns; ++c) {
+    even_.assign(kFineChords + 1, 0.0);
+    for (std::size_t c = 0; c < kChords; ++c) {
         std::vector<Vec3> column;
-        for (std::size_t k = 0; k <= kSteps; ++k) {
-            const double s = static_cast<double>(c) / kColumns, t = static_cast<double>(k) / kSteps;
+        for (std::size_t k = 0; k <= kFineChords; ++k) {
+            const double s = static_cast<double>(c) / kChords, t = static_cast<double>(k) / kFineChords;
             column.push_back(on_facets(model, locate(s, t, near)));
         }
         const std::vector<double> arc = geometry::arc_lengths(column);
-        for (std::size_t k = 0; k <= kSteps; ++k) even_[k] += arc[k] / arc.back() / kColumns;
+        for (std::size_t k = 0; k <= kFineChords; ++k) even_[k] += arc[k] / arc.back() / kChords;
     }
     double off = 0;
-    for (std::size_t k = 0; k <= kSteps; ++k)
-        off = std::max(off, std::abs(even_[k] - static_cast<double>(k) / kSteps));
+    for (std::size_t k = 0; k <= kFineChords; ++k)
+        off = std::max(off, std::abs(even_[k] - static_cast<double>(k) / kFineChords));
     if (off < kVisible) even_.clear();
 }
 
@@ -288,8 +284,8 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         check_cancelled(context);
         row_at_.push_back(from_even(row / rows));
         std::vector<Vec3>& ring = rings.emplace_back();
-        for (std::size_t i = 0; i < kColumnsRound; ++i) {
-            const double s = static_cast<double>(i) / kColumnsRound;
+        for (std::size_t i = 0; i < kDegreesPerTurn; ++i) {
+            const double s = static_cast<double>(i) / kDegreesPerTurn;
             ring.push_back(on_facets(model, locate(s, row_at_.back(), near)));
         }
         areas.push_back(geometry::newell_vector(ring).stableNormalized());
@@ -333,8 +329,8 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         const double up = static_cast<double>(k) / rows;
         const double frame = link.lines.empty() ? turned[k] - up * turn_ : 0;
         columns_.emplace_back();
-        for (std::size_t i = 0; i <= kColumnsRound; ++i) {
-            const double s = static_cast<double>(i) / kColumnsRound;
+        for (std::size_t i = 0; i <= kDegreesPerTurn; ++i) {
+            const double s = static_cast<double>(i) / kDegreesPerTurn;
             const auto to = std::upper_bound(knots.begin() + 1, knots.end() - 1, s), from = to - 1;
             const auto share = [&](const std::vector<double>& of) {
                 return (value_at(of, s) - value_at(of, *from)) / (value_at(of, *to) - value_at(of, *from));
@@ -344,7 +340,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
             const double at = frame + low + f * (high - low);
             const geometry::PolylinePlace place = geometry::place_at(round[k], at - std::floor(at));
             columns_[k].push_back(std::floor(at) +
-                                  (static_cast<double>(place.segment) + place.fraction) / kColumnsRound);
+                                  (static_cast<double>(place.segment) + place.fraction) / kDegreesPerTurn);
             worst = std::max(worst, std::abs(columns_[k].back() - s));
         }
     }
@@ -374,15 +370,13 @@ Vec2 LinkingMap::upright(const Vec2& place) const
 
 bool runs_straight(const Model& model, const LinkingSurface& link)
 {
-    // Cosine of an angle 0.6° off 90°, which allows for facets in single precision.
-    constexpr double kAcross = 0.01;
     const Vec3 way = (geometry::mean_point(round_points(link.target)) -
                       geometry::mean_point(round_points(link.source)))
                          .stableNormalized();
     return std::ranges::all_of(link.walls, [&](FaceId wall) {
         return std::ranges::all_of(model[wall].triangles, [&](const Triangle& t) {
             const Vec3 normal = facet_area_vector(model, t);
-            return std::abs(normal.dot(way)) <= kAcross * normal.norm();
+            return std::abs(normal.dot(way)) <= kParallel * normal.norm();
         });
     });
 }

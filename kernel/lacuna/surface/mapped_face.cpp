@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/mapped_face.h>
 
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/transfinite.h>
@@ -19,17 +20,12 @@ using namespace topology;
 
 namespace {
 
-/// Number of sides of the sample grid in each direction: enough for a side that turns by 360°. Heuristic.
-constexpr std::size_t kSamples = 24;
-/// Number of lines between two opposite sides on which the size is sampled. Heuristic.
-constexpr std::size_t kLines = 3;
-
 /// Points at even steps of running length on a side of the face.
 std::vector<Vec3> side_points(const Model& model, const Loop& loop, std::size_t from, std::size_t to)
 {
     std::vector<EdgeUse> side;
     for (std::size_t i = from; i != to; i = (i + 1) % loop.uses.size()) side.push_back(loop.uses[i]);
-    return geometry::even_places(use_places(model, side), kSamples);
+    return geometry::even_places(use_places(model, side), kChords);
 }
 
 } // namespace
@@ -45,15 +41,15 @@ MappedFace::MappedFace(const Model& model, FaceId face, const std::vector<std::s
     if (model[face].kind == "plane" || plane_of(model, face)) return;
     // Facets are accurate enough for sizes and angles.
     const geometry::FacetTree tree(model.points, model[face].triangles);
-    for (std::size_t j = 1; j < kSamples; ++j) {
-        for (std::size_t i = 1; i < kSamples; ++i) {
-            Vec3& p = points_[j * (kSamples + 1) + i];
+    for (std::size_t j = 1; j < kChords; ++j) {
+        for (std::size_t i = 1; i < kChords; ++i) {
+            Vec3& p = points_[j * (kChords + 1) + i];
             p = tree.closest(p).point;
         }
     }
 }
 
-const Vec3& MappedFace::at(std::size_t i, std::size_t j) const { return points_[j * (kSamples + 1) + i]; }
+const Vec3& MappedFace::at(std::size_t i, std::size_t j) const { return points_[j * (kChords + 1) + i]; }
 
 double MappedFace::sides_between(const Vec3& a, const Vec3& b, const SizeField& size) const
 {
@@ -63,10 +59,10 @@ double MappedFace::sides_between(const Vec3& a, const Vec3& b, const SizeField& 
 std::array<std::vector<double>, 2> MappedFace::wanted_inside(const SizeField& size) const
 {
     std::array<std::vector<double>, 2> wanted;
-    for (std::size_t line = 1; line <= kLines; ++line) {
-        const std::size_t k = line * kSamples / (kLines + 1);
+    for (std::size_t line = 1; line < kSamplesPerSide; ++line) {
+        const std::size_t k = line * kChords / kSamplesPerSide;
         std::array<double, 2> sum{};
-        for (std::size_t i = 0; i < kSamples; ++i) {
+        for (std::size_t i = 0; i < kChords; ++i) {
             sum[0] += sides_between(at(i, k), at(i + 1, k), size);
             sum[1] += sides_between(at(k, i), at(k, i + 1), size);
         }
@@ -81,8 +77,8 @@ MappedFace::Shape MappedFace::shape(const SizeField& size) const
     double jacobians = 0;
     // For each direction, the number of sides that the size requires along each grid side.
     std::array<std::vector<double>, 2> sides;
-    for (std::size_t j = 0; j < kSamples; ++j) {
-        for (std::size_t i = 0; i < kSamples; ++i) {
+    for (std::size_t j = 0; j < kChords; ++j) {
+        for (std::size_t i = 0; i < kChords; ++i) {
             const std::array<Vec3, 4> quad{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
             const Vec3 normal = (quad[2] - quad[0]).cross(quad[3] - quad[1]);
             double least = 1;
@@ -97,7 +93,7 @@ MappedFace::Shape MappedFace::shape(const SizeField& size) const
             sides[1].push_back(sides_between(quad[0], quad[3], size));
         }
     }
-    shape.mean_scaled_jacobian = jacobians / (kSamples * kSamples);
+    shape.mean_scaled_jacobian = jacobians / (kChords * kChords);
     for (const std::vector<double>& own : sides) {
         double squares = 0;
         for (const double s : own) squares += s * s;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/projector.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/surface/detail/trimming.h>
 
@@ -76,9 +77,8 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         hit.triangle = facet;
         return hit;
     };
-    // A point within `rounding` of a facet lies on the facet. If all its weights are above kInside, it is not
-    // on the facet's border, so no other facet is closer, and the search ends.
-    constexpr double kInside = 1e-6;
+    // A point within `rounding` of a facet lies on the facet. If all its weights are above kFileAccuracy,
+    // it is not on the facet's border, so no other facet is closer, and the search ends.
     const double rounding = 1e-15 * tree_.bounds().diagonal().norm();
     parallel_for(context, points.size(), 512, [&](std::size_t begin, std::size_t end) {
         // Consecutive points are close to each other. The distance to the last point's facet therefore limits
@@ -86,7 +86,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         for (std::size_t i = begin; i < end; ++i) {
             if (i > begin) {
                 hits[i] = hit_on(hits[i - 1].triangle, points[i]);
-                const bool inside = hits[i].barycentric.minCoeff() > kInside;
+                const bool inside = hits[i].barycentric.minCoeff() > kFileAccuracy;
                 if (inside && hits[i].distance2 <= rounding * rounding) continue;
                 hits[i] = tree_.closest(points[i], hits[i].distance2);
             }

@@ -87,7 +87,6 @@ double sides_round(const Model& model, FaceId face, const SizeField& size, doubl
 
 bool asks_for_more(const OpenVolume& volume, const SizeField& size, double most)
 {
-    constexpr double kSides = 4; ///< a face with a grid has four sides
     const Model& model = volume.model;
     double all = 0;
     for (const FaceId face : volume.faces(Role::source)) {
@@ -95,8 +94,9 @@ bool asks_for_more(const OpenVolume& volume, const SizeField& size, double most)
         for (const Triangle& t : model[face].triangles)
             quads += asked_on(Facet{model.at(t[0]), model.at(t[1]), model.at(t[2])}, size,
                               most - all - quads);
-        if (four_corners(model, face)) {
-            const double along = sides_round(model, face, size, kSides * std::sqrt(most)) / kSides;
+        if (const auto corners = four_corners(model, face)) {
+            const auto sides = static_cast<double>(corners->size());
+            const double along = sides_round(model, face, size, sides * std::sqrt(most)) / sides;
             quads = std::max(quads, along * along);
         }
         all += quads;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/round_sides.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -16,8 +17,6 @@ using namespace topology;
 
 namespace {
 
-/// Minimum turn of a round side. With a lower value, flatter sides count as round. Not measured.
-constexpr double kBulges = std::numbers::pi / 4;
 /// Relative depth of the rows along a round side, as in the disc patterns (`quads::pattern_counts()`).
 constexpr double kRowsOfRadius = 1.0 / 3;
 
@@ -34,7 +33,7 @@ std::optional<RoundSide> bulge_of(const Model& model, FaceId face,
             const EdgeTurning turning(model, edge);
             turn += turning.between(0, turning.length());
         }
-        if (turn < kBulges) continue;
+        if (turn < (180 - kCornerBelow) * kDegree) continue;
         if (found) return {};
         const EdgeId longest = *std::ranges::max_element(
             sides[s], [&](EdgeId a, EdgeId b) { return edge_length(model, a) < edge_length(model, b); });
@@ -56,8 +55,8 @@ double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_
     // side.
     const double left = bulge.radius - deep;
     const double line = 2 * parts * std::hypot(left * std::sin(angle), left * (1 - std::cos(angle)));
-    program.wishes.push_back({{rows}, std::max(deep / bulge.size, kLeastWish), 1});
-    program.wishes.push_back({round, std::max(line / bulge.size, kLeastWish), 1});
+    program.wishes.push_back({{rows}, std::max(deep / bulge.size, kLeastWish)});
+    program.wishes.push_back({round, std::max(line / bulge.size, kLeastWish)});
     return std::max(line / bulge.size / (2 * parts), kLeastWish);
 }
 

@@ -18,17 +18,9 @@ using namespace topology;
 
 namespace {
 
-/// Weight of a line across a mapped face relative to an edge of its rim. Heuristic.
-constexpr double kLineWeight = 1;
-
 /// If the round side of a face turns by at least this (120°), the face is filled by two three-sided patterns
 /// side by side. Heuristic.
 constexpr double kHalves = kFullTurn / 3;
-
-/// A sector or half disc has rows along its round side, and a core of grids with equal numbers of sides. This
-/// is the weight of the wish for these numbers, relative to the wish of an edge. With a quarter of this
-/// weight, the numbers of sides of sectors around a common point alternate between 15 and 13.
-constexpr double kEvenCore = 1;
 
 /// A sector (three sides, of which one is round) next to another free face gets numbers of sides for rows
 /// along its round side, if the size requires at least this number of quads. Measured on quarters of a disc.
@@ -39,9 +31,6 @@ constexpr double kQuadsForRows = 20;
 
 /// In `make_even()`: weight of edges that should be changed last, relative to other edges. Heuristic.
 constexpr double kLastWeight = 10;
-/// Weight of the wish for half of a face's total. This wish only determines the start of the search; its
-/// weight is too small to change the result otherwise.
-constexpr double kHalfWeight = 1e-6;
 
 /// A grid that fills a face or a part of it: the variables along its sides, in both directions.
 using FaceGrid = std::array<std::vector<std::size_t>, 2>;
@@ -99,7 +88,7 @@ void add_even(Seeds& seeds, const std::vector<EdgeId>& edges, Program& program)
     std::vector<std::size_t> all = variables_of(seeds, edges, program);
     const std::size_t half = add_variable(program.intervals);
     program.intervals.wishes.push_back(
-        {{half}, std::max(total(seeds, edges) / 2.0, kLeastWish), kHalfWeight});
+        {{half}, std::max(total(seeds, edges) / 2.0, kLeastWish), 1 / kDecides});
     program.intervals.equations.push_back({std::move(all), {half, half}});
 }
 
@@ -131,7 +120,7 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
             IntervalProgram& intervals = program.intervals;
             if (mapped != grids.mapped.end()) {
                 for (const double sides : inside[k])
-                    intervals.wishes.push_back({equation.one, std::max(sides, kLeastWish), kLineWeight});
+                    intervals.wishes.push_back({equation.one, std::max(sides, kLeastWish)});
                 if (task.sizing.counts_across) {
                     intervals.floors.push_back({equation.one, task.sizing.gap});
                     intervals.floors.push_back({equation.other, task.sizing.gap});
@@ -204,7 +193,7 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
             const std::size_t rows = grid[(bulge->side + 2) % 3];
             const double core = wish_rows(*bulge, 1, own[bulge->side], rows, intervals);
             for (const std::size_t v : grid) {
-                if (v != rows) intervals.wishes.push_back({{v}, core, kEvenCore});
+                if (v != rows) intervals.wishes.push_back({{v}, core});
             }
             return true;
         }
@@ -216,7 +205,7 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
         intervals.equations.push_back({other, {core, core, rows, rows}});
         program.grids.push_back({{{core, core}, {core, rows, rows}}});
         program.asked += quads_asked(task.model, seeds, face);
-        intervals.wishes.push_back({{core}, wish_rows(*bulge, 2, round, rows, intervals), kEvenCore});
+        intervals.wishes.push_back({{core}, wish_rows(*bulge, 2, round, rows, intervals)});
         return true;
     } else if (side.size() == 2) {
         const double a = length_of(task.model, side[0]), b = length_of(task.model, side[1]);
@@ -285,14 +274,14 @@ double quads_of(const Program& program, const std::vector<int>& counts)
 std::vector<int> solve_for_quads(const Program& program)
 {
     // Results within `kQuadsOff` (a quarter) of the requested number of quads are preferred. Within `kNear`,
-    // no correction is tried. `kNear`, `kQuads` and `kTries` are heuristic.
-    constexpr double kNear = 0.1, kQuads = 0.25;
+    // no correction is tried. `kNear` and `kTries` are heuristic.
+    constexpr double kNear = 0.1;
     constexpr int kTries = 4;
     std::vector<int> best = solve(program, 1), counts = best;
     const auto rank = [&](const std::vector<int>& of) {
         const double off = quads_of(program, of) - program.asked;
         return std::pair(std::abs(off) > kQuadsOff * program.asked,
-                         cost_of_intervals(program.intervals, of) + kQuads * off * off / program.asked);
+                         cost_of_intervals(program.intervals, of) + kQuadsOff * off * off / program.asked);
     };
     double share = 1;
     for (int i = 0; i < kTries; ++i) {

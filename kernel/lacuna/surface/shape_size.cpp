@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
@@ -28,20 +29,6 @@ using namespace topology;
 
 namespace {
 
-/// Maximum sag of a side, as a share of the local width of the face [-]. If the sides of both opposite rims
-/// have this sag, half of the width remains between them.
-constexpr double kSagOfWidth = 0.25;
-/// Number of rim points at which the width is measured, for each mesh side of the requested size. More points
-/// would show changes of the width within a side, but take more time. Heuristic.
-constexpr double kPointsPerSide = 4;
-/// Maximum distance of neighbouring rim points, as a multiple of the size there. Halfway between two points
-/// the size is then at most a third too large. Heuristic.
-constexpr double kApart = 2;
-/// Maximum number of rim points per edge. Heuristic.
-constexpr std::size_t kMostPoints = 4096;
-/// Two rim points face each other if the cosine of the angle between the line that joins them and the rim's
-/// normal is at least this. The two sides of a right angle then never face each other.
-constexpr double kFacing = 0.8;
 /// Two points of one edge face each other only if the path along the edge is longer than this multiple of the
 /// chord. For a half circle the ratio is 1.57 [-].
 constexpr double kWayRound = 1.5;
@@ -144,9 +131,8 @@ private:
             const Vec3 along = (b - a) / length;
             const Vec3 up = model_.at(corner->second) - a;
             const Vec3 inward = (up - up.dot(along) * along).stableNormalized();
-            const double wanted = kPointsPerSide * length / asked((a + b) / 2);
-            const auto count = static_cast<std::size_t>(
-                std::clamp(wanted, 1.0, static_cast<double>(kMostPoints)));
+            const double wanted = kSamplesPerSide * length / asked((a + b) / 2);
+            const auto count = static_cast<std::size_t>(std::clamp(wanted, 1.0, kMostSamples));
             std::vector<std::array<double, 2>> parts; // intervals of the piece still to be sampled
             for (std::size_t k = count; k-- > 0;) {
                 parts.push_back({length * static_cast<double>(k) / static_cast<double>(count),
@@ -191,7 +177,7 @@ private:
                 because(share);
                 // If the interval is longer than `kApart` times the new size, divide it: otherwise the size
                 // would grow too much between two samples.
-                if (to - from > kApart * share && length < static_cast<double>(kMostPoints) * (to - from)) {
+                if (to - from > kApart * share && length < kMostSamples * (to - from)) {
                     parts.push_back({(from + to) / 2, to});
                     parts.push_back({from, (from + to) / 2});
                 }
@@ -211,14 +197,12 @@ private:
                                                    double reach) const
     {
         if (!(reach > 0)) return std::nullopt;
-        constexpr int kSteps = 30;      // maximum number of shrink steps; a few are usual
-        constexpr double kTouch = 1e-3; // overlap of ball and rim that is tolerated, as a share of the radius
         double radius = reach / 2;
         Vec3 met = at.point;
         std::optional<std::size_t> piece;
-        for (int i = 0; i < kSteps; ++i) {
+        for (int i = 0; i < kMostSteps; ++i) {
             const Vec3 centre = at.point + radius * at.inward;
-            const auto hit = tree_.closest(centre, radius * radius * (1 - kTouch) * (1 - kTouch));
+            const auto hit = tree_.closest(centre, radius * radius * (1 - kVisible) * (1 - kVisible));
             if (hit.triangle < 0) break;
             const Vec3 to = hit.point - at.point;
             const double rise = to.dot(at.inward);

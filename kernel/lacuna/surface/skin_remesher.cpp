@@ -3,6 +3,8 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
@@ -23,26 +25,18 @@ constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
 /// Number of rounds of splitting, collapsing, flipping and smoothing. On the bodies of the tests, the
 /// smallest angle did not change after the fifth round.
 constexpr int kRounds = 6;
+/// Tangent of 30°. After all rounds, triangles with a smaller angle are improved one by one, in as many
+/// rounds.
+constexpr double kGoodAngle = 0.577;
 /// Tangent of 15°: the smallest angle that a collapse or a move may create. Later flips and moves
 /// approximately double such small angles.
 constexpr double kPoorAngle = 0.27;
-/// Tangent of 30°. After all rounds, triangles with a smaller angle are improved one by one.
-constexpr double kGoodAngle = 0.577;
-/// Number of rounds of these improvements. The last rounds find hardly anything to improve.
-constexpr int kImprovements = 6;
 /// Tangent of an angle that counts as zero.
 constexpr double kFlat = 1e-4;
 /// Maximum number of triangles, as a multiple of the estimate from area and size before the first round.
 /// Skins with badly shaped triangles need at most twice the estimate. Without a limit, splitting would not
 /// end next to folded facets.
 constexpr double kMostOfEstimate = 4;
-/// A skin with more triangles is refused, because the volume inside would have more than 1e7 tetrahedra.
-constexpr double kMostTriangles = 1e7;
-/// Minimum distance of a new node from the corners opposite to its side, in multiples of the size.
-constexpr double kClose = 0.25;
-/// Minimum relative gain of a flip. It is above the rounding error, so that two equal diagonals are not
-/// flipped back and forth.
-constexpr double kGain = 1e-6;
 
 } // namespace
 
@@ -110,7 +104,7 @@ Index SkinRemesher::try_split(Index s)
     node.size = size_(node.at);
     // A node that is this close to others is not inserted, because it would be collapsed again.
     const double close = std::min((c - node.at).norm(), (d - node.at).norm());
-    if (line < 0 && close < kClose * node.size) return -1;
+    if (line < 0 && close < kOnePoint * node.size) return -1;
     return mesh_.split(s, node, normals);
 }
 
@@ -124,10 +118,10 @@ double SkinRemesher::most_sides() const
         const double size = size_((a + b + c) / 3);
         estimate += 1 + (b - a).cross(c - a).norm() / (size * size);
     }
-    if (!(estimate <= kMostTriangles))
+    if (!(estimate <= kMostCells))
         throw NotSweepable(Message("surface.skin_count",
                                    "the skin needs {:.2g} triangles; at most {:.2g} are allowed",
-                                   found(estimate), needed(kMostTriangles))
+                                   found(estimate), needed(kMostCells))
                                .remedy("use a larger 'size'"));
     return static_cast<double>(mesh_.sides.size()) + 3 * kMostOfEstimate * estimate;
 }
@@ -214,7 +208,7 @@ bool SkinRemesher::is_better_flipped(Index s) const
     const double after = std::min(
         triangle_quality(mesh_.at(c), mesh_.at(d), mesh_.at(b), normal(sp) + normal(gp) + normal(sn)),
         triangle_quality(mesh_.at(d), mesh_.at(c), mesh_.at(a), normal(sp) + normal(gp) + normal(gn)));
-    return c != d && after > before + kGain * std::abs(before) && mesh_.valence(a) > 3 &&
+    return c != d && after > before + kFileAccuracy * std::abs(before) && mesh_.valence(a) > 3 &&
            mesh_.valence(b) > 3 && !mesh_.are_neighbours(c, d);
 }
 
@@ -376,7 +370,7 @@ bool SkinRemesher::improve(Index side, bool moves)
 void SkinRemesher::improve(bool moves)
 {
     flip_all();
-    for (int round = 0; round < kImprovements; ++round) {
+    for (int round = 0; round < kRounds; ++round) {
         std::vector<std::pair<double, Index>> poor;
         for (std::size_t i = 0; i < mesh_.sides.size(); i += 3) {
             const auto s = static_cast<Index>(i);

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -21,12 +22,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// Number of samples of an exact curve for each triangle side along the curve. The sag of the polyline
-/// through four samples per side is a sixteenth of the sag of the side.
-constexpr double kSamplesPerSide = 4;
-/// Maximum number of samples per facet. Heuristic.
-constexpr double kMostSamples = 1000;
 
 /// The sides of facets inside a face at which two facets form an angle larger than `angle`, as a graph of
 /// points.
@@ -83,7 +78,6 @@ bool keeps_cells(const Face& face) { return face.keeps_nodes || !face.given_quad
 std::vector<std::array<Vec3, 3>> corner_normals(std::span<const Vec3> points,
                                                 std::span<const Triangle> triangles)
 {
-    constexpr double kNear = 0.7; // 45 degrees: halfway between straight and a right angle
     std::vector<Vec3> area(triangles.size());
     std::vector<char> flat(triangles.size());
     std::unordered_map<Index, std::vector<std::size_t>> around; // the triangles at each point
@@ -101,7 +95,7 @@ std::vector<std::array<Vec3, 3>> corner_normals(std::span<const Vec3> points,
             Vec3 all = Vec3::Zero(), near = Vec3::Zero();
             for (const std::size_t j : around[triangles[i][k]]) {
                 all += area[j];
-                if (flat[i] == 0 && area[j].dot(area[i]) > kNear * area[j].norm() * area[i].norm())
+                if (flat[i] == 0 && area[j].dot(area[i]) > kContinues * area[j].norm() * area[i].norm())
                     near += area[j];
             }
             normals[i][k] = (near.norm() > 0 ? near : all).stableNormalized();

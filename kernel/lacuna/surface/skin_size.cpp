@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/skin_size.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/facet_curvature.h>
@@ -23,20 +24,11 @@ using namespace topology;
 
 namespace {
 
-/// Minimum number of sides for a full turn. With 12 sides, neighbouring triangles form an angle of 30°, which
-/// is less than at a crease.
-constexpr int kLeastPerTurn = 12;
 /// Maximum number of sides for a full turn. With 160 sides, a sphere loses 0.06 % of its volume.
 constexpr int kMostPerTurn = 160;
 /// Minimum size in narrow places, as a share of the requested size. A smaller value gives more triangles
 /// along the rims, in inverse proportion. Faces that are too narrow for this size get flat triangles.
 constexpr double kLeastShare = 0.1;
-/// Maximum sag of a side, as a share of the distance to the opposite skin [-]. Two opposite sides together
-/// then take at most half of the distance.
-constexpr double kSagOfGap = 0.25;
-/// Two parts of the skin are opposite to each other if the angle between the normal of one and the reversed
-/// normal of the other is less than 37° [cosine].
-constexpr double kOpposite = 0.8;
 
 /// For each face that is meshed, the curvature at its points.
 using Curvatures = std::vector<std::vector<PointCurvature>>;
@@ -62,7 +54,9 @@ int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeF
         }
         return sum;
     };
-    const auto counts = std::views::iota(kLeastPerTurn, kMostPerTurn);
+    // Neighbouring triangles form a smaller angle than at a crease.
+    const auto least = static_cast<int>(kDegreesPerTurn / kCreaseAngle);
+    const auto counts = std::views::iota(least, kMostPerTurn);
     const auto first = std::ranges::partition_point(counts, [&](int count) { return lost(count) > allowed; });
     return first == counts.end() ? kMostPerTurn : *first;
 }
@@ -72,9 +66,6 @@ int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeF
 void add_curved(const Face& face, std::span<const PointCurvature> at, int per_turn, const SizeField& size,
                 std::vector<PointSize>& sizes)
 {
-    // Distance between added points, as a multiple of the size. Halfway between two points, the size has
-    // grown by 30 %.
-    constexpr double kApart = 2;
     if (at.empty()) return;
     const std::vector<Index> points = corner_points(face);
     const auto place = [&](Index p) -> const PointCurvature& {
@@ -86,7 +77,7 @@ void add_curved(const Face& face, std::span<const PointCurvature> at, int per_tu
             const double first = std::min(size_on(a, per_turn), size(a.point));
             const double last = std::min(size_on(b, per_turn), size(b.point));
             const double wanted = std::ceil((b.point - a.point).norm() / (kApart * std::min(first, last)));
-            const auto count = static_cast<int>(std::clamp(wanted, 1.0, 1000.0));
+            const auto count = static_cast<int>(std::clamp(wanted, 1.0, kMostSamples));
             for (int i = 0; i < count; ++i) {
                 const double share = static_cast<double>(i) / count;
                 const Vec3 p = (1 - share) * a.point + share * b.point;
@@ -126,8 +117,8 @@ void add_gaps(const Model& model, const Curvatures& curvatures, const SizeField&
                 const auto hit = tree.first_along(middle + model.tolerance * way, way);
                 if (hit.triangle < 0 || hit.triangle == own) continue;
                 const Vec3 other = facet_area_vector(model, facets[index(hit.triangle)]).stableNormalized();
-                if (-normal.dot(other) < kOpposite) continue;
-                const double most = std::sqrt(8 * kSagOfGap * (hit.t + model.tolerance) / curvature);
+                if (-normal.dot(other) < kFacing) continue;
+                const double most = std::sqrt(8 * kSagOfWidth * (hit.t + model.tolerance) / curvature);
                 if (most < size(middle)) sizes.push_back({middle, most});
             }
         }

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/sparse_factor.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/surface/detail/section_line.h>
@@ -22,11 +23,9 @@ using namespace topology;
 
 namespace {
 
-/// Number of samples per side on an edge: enough for cubic interpolation. Heuristic.
-constexpr int kPerSide = 4;
 /// Maximum number of Gauss-Newton steps in a round, and maximum number of rounds. Each round doubles the
 /// weight of evenness. Heuristic.
-constexpr int kSteps = 12, kRounds = 5;
+constexpr int kRounds = 5;
 /// Allowed range of a side's length, relative to its original length. It is narrower than the accepted range
 /// of sizes, 0.6 to 1.6.
 constexpr double kShortest = 0.75, kLongest = 1.35;
@@ -102,7 +101,7 @@ private:
                 Line line;
                 line.piece = &piece;
                 line.on_rim = rim_.contains(use.edge);
-                const std::vector<double> at = fractions_of(piece, kPerSide);
+                const std::vector<double> at = fractions_of(piece, kSamplesPerSide);
                 line.points[kSource] = edge_points(model_, use.edge, at);
                 for (int i = 0; i <= piece.count; ++i) line.at.push_back(i);
                 lines_.push_back(std::move(line));
@@ -471,7 +470,7 @@ private:
         double weight = 1;
         std::vector<Line> uneven; // lines of the last round in which the sides were uneven
         for (int round = 0; round < kRounds; ++round, weight *= 2) {
-            for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kVisible; ++k) {}
+            for (int k = 0; k < kMostSteps && step(lines, rungs, weight, variables) > kVisible; ++k) {}
             if (is_even(lines)) {
                 if (!uneven.empty()) go_towards(lines, rungs, uneven);
                 return true;

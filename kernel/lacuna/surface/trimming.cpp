@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/trimming.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/facet_area.h>
@@ -20,9 +22,6 @@ namespace {
 /// Number of Newton iterations on a curve. The iterations start at most a few percent of a side away from the
 /// solution and converge quadratically. Heuristic.
 constexpr int kRounds = 3;
-/// Step of the finite differences for derivatives of a curve, as a share of a side. It balances truncation
-/// error and rounding error. Heuristic.
-constexpr double kDifference = 1e-2;
 /// Minimum number of points per thread. It is the same as in the search for closest facets (`Projector`),
 /// because a point takes about the same time.
 constexpr std::size_t kGrain = 512;
@@ -31,8 +30,7 @@ constexpr std::size_t kGrain = 512;
 /// @param first, second  angles between curve and chord at the two ends [radian].
 double height_over_chord(double first, double second)
 {
-    constexpr double kSteep = 1.2; // for steeper angles, above nearly 70°, the result is the chord's length
-    if (std::max(first, second) > kSteep) return 1;
+    if (std::max(first, second) > kBendBelow * kDegree) return 1;
     const double a = std::tan(first), b = std::tan(second);
     return a + b > 0 ? a * b / (a + b) : 0;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/wall_columns.h>
 
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/topology/model.h>
@@ -14,9 +15,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// Number of columns of bent walls without side lines: one every 45° on a round wall. Not measured.
-constexpr int kPlaces = 8;
 
 /// Walls count as straight if their length differs by less than this share from that of straight lines
 /// between the rims. With ten layers, this is half the height of a layer.
@@ -80,10 +78,10 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
     if (are_straight(volume.model, link, straight, columns.size())) return columns;
     const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
     columns.clear();
-    for (int k = 0; k < kPlaces; ++k) {
+    for (int k = 0; k < kChords; ++k) {
         std::vector<ColumnPlace> places;
         for (int i = 0; i <= steps; ++i)
-            places.push_back({(k + 0.5) / kPlaces, static_cast<double>(i) / steps});
+            places.push_back({(k + 0.5) / kChords, static_cast<double>(i) / steps});
         columns.push_back(mapped_points(volume.model, *map, places));
     }
     return columns;

@@ -9,7 +9,8 @@
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/marks.h>
 #include <lacuna/geometry/shared/union_find.h>
-#include <lacuna/topology/detail/directed_sides.h>
+#include <lacuna/topology/detail/end_costs.h>
+#include <lacuna/topology/detail/wall_parts.h>
 #include <lacuna/topology/detail/wall_tally.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -24,12 +25,10 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Maximum cost of a bent end, cost of a candidate with one end, and cost of a candidate without ends. Rule
-/// of thumb: two flat ends are likelier than one end, one end is likelier than none, and any flat end is
-/// likelier than a bent end.
-constexpr double kBent = 1.0;
+/// Cost of a candidate with one end, and of steps at both ends. Rule of thumb: a sweep from one flat face
+/// falls into fewer pieces, two flat ends are likelier than one end, one end is likelier than none
+/// (`kNoEnd`), and any flat end is likelier than a bent end.
 constexpr double kOneEnd = 0.05;
-constexpr double kNoEnd = 0.1;
 /// Cost of a connected set of sharp wall edges that does not run from end to end, and cost of a window (a rim
 /// of the walls whose edges are all free). Rule of thumb: the shoulder of a stepped bore is more likely part
 /// of a stepped end than a wall.
@@ -44,10 +43,6 @@ constexpr double kStraight = 0.02;
 /// Cost of each doubling of the number of steps. Rule of thumb: a candidate with fewer steps is likelier, but
 /// a plate may have a hundred.
 constexpr double kStep = 0.01;
-/// Cost of steps at both ends. Rule of thumb: a sweep from one flat face falls into fewer pieces.
-constexpr double kBothSteps = 0.05;
-/// Number of faces listed for each role in a message.
-constexpr std::size_t kMostFaces = 12;
 
 /// Maximum number of candidates that are kept and sorted at once: those with the lowest costs. If all of them
 /// are invalid, the candidates with the next higher costs are found. Usually few candidates are tried;
@@ -80,14 +75,6 @@ struct SteppedEnds {
     std::vector<std::size_t> source, target;
 };
 
-/// Connected walls of one candidate.
-struct WallPart {
-    long euler = 0;
-    std::size_t rims = 0;
-    std::size_t source_rim = kNoIndex, target_rim = kNoIndex; ///< the rim of each end that it touches
-    bool several = false;                                     ///< it touches several rims of one end
-};
-
 /// The angles across edges. A smooth edge between a flat and a bent face gets the crease angle, so that a
 /// floor with a rounded rim can be an end.
 std::vector<double> parted_at_flat_faces(const Model& model, std::vector<double> angle)
@@ -117,10 +104,8 @@ public:
                std::vector<std::size_t>(2 * model.edges.size(), kNoIndex),
                std::vector<EdgeUse>(2 * model.edges.size()),
                std::vector<std::vector<std::size_t>>(model.vertices.size())},
-          part_of_(map_.patches.size()),
-          vertex_seen_(model.vertices.size()),
-          edge_seen_(model.edges.size()),
-          use_seen_(2 * model.edges.size())
+          walls_(map_, free_),
+          vertex_seen_(model.vertices.size())
     {
         for (std::size_t p = 0; p < map_.patches.size(); ++p) index_patch(p);
         for (std::size_t u = 0; u < map_.of_use.size(); ++u) {
@@ -130,7 +115,7 @@ public:
         for (std::size_t e = 0; e < angle_.size(); ++e) {
             if (angle_[e] >= kCreaseAngle) sharp_.emplace_back(e);
         }
-        if (!used_twice_) tally_.emplace(map_, free_loops());
+        if (!used_twice_) tally_.emplace(map_, walls_.free_loops());
     }
 
     Readings(const Readings&) = delete; // the tally refers to the map
@@ -153,7 +138,7 @@ public:
             }
             std::push_heap(found.begin(), found.end());
         };
-        if (const auto cost = cost_of_no_end()) add({kNoIndex, kNoIndex, *cost});
+        if (const auto cost = cost_of_no_end(model_)) add({kNoIndex, kNoIndex, *cost});
         if (free_.empty()) {
             if (!after) find_stepped();
             for (const Reading& reading : with_steps_) add(reading);
@@ -194,8 +179,7 @@ public:
         // Candidates without ends or with steps were checked when they were found.
         if (reading.source == kNoIndex || reading.step != kNoIndex) return true;
         if (flat_alone_ && has_fans(reading)) return false;
-        windows_ = 0;
-        const std::vector<WallPart> parts = wall_parts(reading);
+        const std::vector<WallPart> parts = walls_.between(reading.source, reading.target);
         const SmoothPatch& source = map_.patches[reading.source];
         std::vector<std::size_t> served(source.rims.size(), kNoIndex);
         std::size_t before_gap = 0, behind_gap = 0;
@@ -245,7 +229,8 @@ public:
     [[nodiscard]] double cost_of_walls(const Reading& reading)
     {
         if (reading.source == kNoIndex) return 0;
-        const std::size_t windows = reading.target == kNoIndex || reading.step != kNoIndex ? 0 : windows_;
+        const std::size_t windows = reading.target == kNoIndex || reading.step != kNoIndex ? 0
+                                                                                           : walls_.windows();
         return cost_of_facing_along(reading) + cost_of_loose_edges(reading) + cost_of_steps(reading) +
                kLoose * static_cast<double>(windows);
     }
@@ -272,7 +257,7 @@ private:
         if (reading.step == kNoIndex) return 0;
         const SteppedEnds& ends = stepped_[reading.step];
         const auto patches = static_cast<double>(ends.source.size() + ends.target.size());
-        return kStep * std::log2(patches - 1) + (ends.source.size() > 1 ? kBothSteps : 0);
+        return kStep * std::log2(patches - 1) + (ends.source.size() > 1 ? kOneEnd : 0);
     }
 
     /// Cost of sharp edges between walls that do not run from end to end.
@@ -390,22 +375,6 @@ private:
 
     // --- costs of ends alone ----------------------------------------------------------------------
 
-    /// Number of free loops if all patches are walls.
-    [[nodiscard]] std::size_t free_loops()
-    {
-        std::vector<WallPart> all(1);
-        use_seen_.clear();
-        for (const EdgeUse use : free_) count_rim(use, all);
-        return all.front().rims;
-    }
-
-    [[nodiscard]] static double bend(const SmoothPatch& end)
-    {
-        // With the factor 4, a patch that bends by 90° (flatness 0.90) gets 40 % of the maximum cost, and a
-        // patch that bends by 180° gets the maximum.
-        return kBent * std::min(1.0, 4 * (1 - end.flatness));
-    }
-
     /// Whether a patch can be the only end: it has neighbours on its whole rim.
     [[nodiscard]] bool stands_alone(std::size_t p) const
     {
@@ -424,67 +393,6 @@ private:
         return !s.rims.empty() && s.rims.size() == t.rims.size() &&
                std::none_of(t.vertices.begin(), t.vertices.end(),
                             [&](VertexId v) { return vertex_seen_.has(v.index()); });
-    }
-
-    [[nodiscard]] static double cost_of_two_ends(const SmoothPatch& s, const SmoothPatch& t)
-    {
-        // The ends of a sweep face each other: the line between their centres is along both normals.
-        const Vec3 way = (t.centre - s.centre).stableNormalized();
-        const double facing =
-            1 - (std::abs(way.dot(s.normal)) * s.flatness + std::abs(way.dot(t.normal)) * t.flatness) / 2;
-        const double unlike = std::abs(std::log(s.area / t.area)) / 4;
-        return bend(s) + bend(t) + (s.slant + t.slant) / 2 + facing / 2 + unlike;
-    }
-
-    /// Cost of the candidate in which all faces are walls. Empty if the faces are not tubes whose free loops
-    /// can be ends.
-    [[nodiscard]] std::optional<double> cost_of_no_end() const
-    {
-        double cost = 0;
-        const auto parts = connected_parts(model_, all_faces(model_));
-        if (parts.empty()) return std::nullopt;
-        DirectedSides sides(model_.points.size());
-        for (const std::vector<FaceId>& part : parts) {
-            const std::vector<Rim> open = rims(model_, part);
-            if (open.size() != 2 || euler_number(model_, part, sides) != 0) return std::nullopt;
-            const auto cap = cap_cost(open[0], open[1]);
-            if (!cap) return std::nullopt;
-            cost += *cap;
-        }
-        return kNoEnd + cost / static_cast<double>(parts.size());
-    }
-
-    /// Cost of two free loops as the rims of missing ends. Empty if they cannot be such rims: one loop lies
-    /// inside the other in the same plane, or an end on a loop would only continue a face next to the loop.
-    [[nodiscard]] std::optional<double> cap_cost(const Rim& first, const Rim& second) const
-    {
-        double cost = 0;
-        std::vector<Vec3> centre;
-        std::vector<double> size;
-        for (const Rim* rim : {&first, &second}) {
-            const std::vector<Vec3> points = loop_places(model_, rim->uses);
-            const double length = length_of(model_, rim->uses);
-            Vec3 mean = Vec3::Zero(), area = Vec3::Zero();
-            for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
-            for (std::size_t i = 0; i < points.size(); ++i)
-                area += (points[i] - mean).cross(points[(i + 1) % points.size()] - mean) / 2;
-            double bulge = 0;
-            for (const Vec3& p : points)
-                bulge = std::max(bulge, std::abs((p - mean).dot(area.stableNormalized())));
-            cost += bulge / length;
-            centre.push_back(mean);
-            size.push_back(length);
-            double along = 0;
-            for (const EdgeUse& use : rim->uses) {
-                const FaceId wall = model_.uses_of_edge(use.edge).front().face;
-                const Vec3 normal = face_area_vector(model_, wall).stableNormalized();
-                const double flat = face_area_vector(model_, wall).norm() / face_area(model_, wall);
-                along += edge_length(model_, use.edge) * flat * std::abs(normal.dot(area.stableNormalized()));
-            }
-            if (along > 0.9 * length) return std::nullopt;
-        }
-        if ((centre[0] - centre[1]).norm() < 1e-3 * std::max(size[0], size[1])) return std::nullopt;
-        return cost;
     }
 
     /// Whether several wall edges leave one vertex of an end. Such ends are invalid, because only one line of
@@ -508,90 +416,6 @@ private:
                                                           [&](VertexId v) { return leaving[v.index()] > 1; });
         };
         return fans(reading.source) || fans(reading.target);
-    }
-
-    // --- checks of the walls between the ends -------------------------------------------------------
-
-    /// Whether a wall of the candidate in `part_of_` uses an edge in this direction.
-    [[nodiscard]] bool on_wall(EdgeUse use) const
-    {
-        const std::size_t patch = map_.of_use[number_of(use)];
-        return patch != kNoIndex && part_of_[patch] != kNoIndex;
-    }
-
-    [[nodiscard]] std::vector<WallPart> wall_parts(const Reading& reading)
-    {
-        constexpr std::size_t unseen = kNoIndex - 1;
-        std::fill(part_of_.begin(), part_of_.end(), unseen);
-        part_of_[reading.source] = kNoIndex;
-        if (reading.target != kNoIndex) part_of_[reading.target] = kNoIndex;
-        std::vector<WallPart> parts;
-        for (std::size_t start = 0; start < map_.patches.size(); ++start) {
-            if (part_of_[start] != unseen) continue;
-            part_of_[start] = parts.size();
-            parts.push_back({flood(start, unseen), 0, kNoIndex, kNoIndex, false});
-        }
-        use_seen_.clear();
-        for (const EdgeUse use : free_) count_rim(use, parts);
-        touch(reading.source, &WallPart::source_rim, parts);
-        if (reading.target != kNoIndex) touch(reading.target, &WallPart::target_rim, parts);
-        return parts;
-    }
-
-    /// Assign the part number to every patch connected to `start`. @return the Euler number of the part.
-    long flood(std::size_t start, std::size_t unseen)
-    {
-        vertex_seen_.clear();
-        edge_seen_.clear();
-        std::vector<std::size_t> front{start};
-        long euler = 0;
-        for (std::size_t i = 0; i < front.size(); ++i) {
-            const SmoothPatch& patch = map_.patches[front[i]];
-            euler += patch.inner_euler;
-            for (const VertexId v : patch.vertices) euler += vertex_seen_.add(v.index()) ? 1 : 0;
-            for (const EdgeId e : patch.edges) {
-                if (!edge_seen_.add(e.index())) continue;
-                --euler;
-                for (const std::size_t use : {2 * e.index(), 2 * e.index() + 1}) {
-                    const std::size_t other = map_.of_use[use];
-                    if (other == kNoIndex || part_of_[other] != unseen) continue;
-                    part_of_[other] = part_of_[start];
-                    front.push_back(other);
-                }
-            }
-        }
-        return euler;
-    }
-
-    /// Count the rim that contains a wall's use; each rim counts once. The rim is traced as in `rims()`. A
-    /// rim whose edges are all free is a window, unless the other end is missing there.
-    void count_rim(EdgeUse use, std::vector<WallPart>& parts)
-    {
-        if (!on_wall(use) || on_wall(opposite(use)) || use_seen_.has(number_of(use))) return;
-        ++parts[part_of_[map_.of_use[number_of(use)]]].rims;
-        bool free = true;
-        while (use_seen_.add(number_of(use))) {
-            free = free && map_.of_use[number_of(opposite(use))] == kNoIndex;
-            use = map_.next[number_of(use)];
-            for (std::size_t turns = 0; on_wall(opposite(use)) && turns <= map_.next.size(); ++turns)
-                use = map_.next[number_of(opposite(use))];
-        }
-        windows_ += free ? 1 : 0;
-    }
-
-    /// Record which rims of an end the parts touch, and count the parts' rims there.
-    void touch(std::size_t end, std::size_t WallPart::*rim, std::vector<WallPart>& parts)
-    {
-        const std::vector<Rim>& all = map_.patches[end].rims;
-        for (std::size_t r = 0; r < all.size(); ++r) {
-            for (const EdgeUse& use : all[r].uses) {
-                if (!on_wall(opposite(use))) continue;
-                count_rim(opposite(use), parts);
-                WallPart& part = parts[part_of_[map_.of_use[number_of(opposite(use))]]];
-                part.several = part.several || (part.*rim != kNoIndex && part.*rim != r);
-                part.*rim = r;
-            }
-        }
     }
 
     // --- results for the user -----------------------------------------------------------------------
@@ -660,9 +484,8 @@ private:
     PatchMap map_;
     std::vector<SteppedEnds> stepped_; ///< ends of each candidate with ends at several heights
     std::vector<EdgeUse> free_;        ///< uses whose edge has no other use
-    std::vector<std::size_t> part_of_; ///< part of each patch in the current candidate; `kNoIndex`: an end
-    std::size_t windows_ = 0;          ///< number of windows in the candidate last checked
-    Marks vertex_seen_, edge_seen_, use_seen_;
+    WallParts walls_;
+    Marks vertex_seen_;
     std::vector<Reading> with_steps_;
     bool used_twice_ = false;        ///< faces use an edge twice in one direction
     std::optional<WallTally> tally_; ///< empty if used_twice_
@@ -674,9 +497,8 @@ std::string in_words(const Model& model, const Roles& roles, VolumeClass value)
 {
     const auto list = [&](std::string_view role, const std::vector<FaceId>& faces) -> std::string {
         if (faces.empty()) return {};
-        const std::string text = full_list(std::span(faces).first(std::min(faces.size(), kMostFaces)),
-                                           [&](FaceId face) { return std::to_string(model[face].tag); });
-        return formatted(" {} = {{{}{}}}", role, text, faces.size() > kMostFaces ? ", …" : "");
+        return formatted(" {} = {{{}}}", role,
+                         short_list(faces, [&](FaceId face) { return std::to_string(model[face].tag); }));
     };
     return formatted("class {}:{}{}{}", to_string(value), list("source", roles.source),
                      list("target", roles.target), list("walls", roles.walls));

@@ -18,6 +18,9 @@ struct RoleCandidate {
     std::vector<std::string> reasons; ///< sentences for the user
 };
 
+/// Cost of a candidate without ends. Any other cost is relative to that of an end that bends by 180°.
+inline constexpr double kNoEnd = 0.1;
+
 /// Limits of the search of role_candidates().
 struct RoleOptions {
     /// The cheapest candidate is unambiguous if the next one costs at least this much more. Rule of thumb.

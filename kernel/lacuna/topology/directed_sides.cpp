@@ -36,10 +36,7 @@ Index DirectedSides::find(Index from, Index to) const
 {
     if (local_[index(from)] < 0) return -1;
     const std::span<const Entry> heap = leaving(index(local_[index(from)]));
-    constexpr std::size_t kFew = 12; // rule of thumb: up to this size a linear search is as fast as bisection
-    const auto found = heap.size() <= kFew ? std::find_if(heap.begin(), heap.end(),
-                                                          [&](const Entry& e) { return e.to == to; })
-                                           : std::lower_bound(heap.begin(), heap.end(), Entry{to, 0});
+    const auto found = std::lower_bound(heap.begin(), heap.end(), Entry{to, 0});
     return found != heap.end() && found->to == to ? found->side : -1;
 }
 

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/side_points.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -19,10 +20,6 @@
 namespace lacuna::topology {
 
 namespace {
-
-/// Maximum distance of a rim node of the mesh from the face's loop, as a share of the longer of the two sides
-/// at the node. For comparison: a chord over a sixth of a circle deviates by an eighth of its length.
-constexpr double kOffRim = 0.25;
 
 /// A node on a loop of the face.
 struct RimNode {
@@ -368,7 +365,7 @@ private:
                 (model_.at(cycle[(i + 1) % cycle.size()]) - p).norm(),
                 (model_.at(cycle[(i + cycle.size() - 1) % cycle.size()]) - p).norm());
             const Nearest place = nearest_on(model_, chain.points, chain.at, p);
-            if (place.distance > std::max(model_.tolerance, kOffRim * side)) {
+            if (place.distance > std::max(model_.tolerance, kOnePoint * side)) {
                 refuse("a node of the mesh for {} is {:.3g} away from the face's loops",
                        entity_of(model_, face_), found(place.distance));
             }

@@ -138,7 +138,6 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
 std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
                               const RunContext& context)
 {
-    constexpr double kInside = 0.5; // between the winding numbers 0 and 1
     std::vector<bool> inner(parts.size(), false);
     if (parts.size() < 2) return inner;
     for (std::size_t o = 0; o < parts.size(); ++o) {
@@ -147,8 +146,7 @@ std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<
         for (std::size_t p = 0; p < parts.size(); ++p) {
             if (p == o) continue;
             const Vec3 at = facet_centre(model, parts[p].front()); // corners may be shared by both parts
-            if (tree.bounds().contains(at) && std::abs(tree.winding_number(at)) > kInside)
-                inner[p] = !inner[p];
+            if (tree.bounds().contains(at) && std::round(tree.winding_number(at)) != 0) inner[p] = !inner[p];
         }
     }
     return inner;

@@ -7,7 +7,8 @@
 // Where to change things:
 //   arrays of a model, building them     model.h, model.cpp
 //   checks of an open volume, its class  open_volume.cpp
-//   roles if none are named              auto_roles.cpp; walls of given ends: auto_walls.cpp
+//   roles if none are named              auto_roles.cpp, end_costs.cpp, wall_parts.cpp
+//   walls of given ends                  auto_walls.cpp
 //   candidates for ends                  patches.cpp
 //   free loops, rims of faces            rims.cpp
 //   hollows of a solid, bodies inside    hollows.cpp

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -23,19 +24,13 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Maximum number of alternating projections of a point onto plane and surface. If these meet at more than
-/// 45°, each projection at least halves the error.
-constexpr int kLaid = 12;
-/// Number of bisection steps along a curve's parameter: the number of bits of a double.
-constexpr int kHalvings = 52;
-
 SectionPlace place_between(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Project points onto a surface and a plane, the surface last.
 void lay_onto(const geometry::ExactSurface& surface, const geometry::Plane& plane, std::span<Vec3> points,
               std::span<Vec2> uv, double tolerance, const RunContext& context)
 {
-    for (int i = 0; i < kLaid; ++i) {
+    for (int i = 0; i < kMostSteps; ++i) {
         double off = 0;
         for (Vec3& p : points) {
             const double h = geometry::height(plane, p);
@@ -309,7 +304,7 @@ private:
                     Vec3& place = model_.points[index(found->second)];
                     double low = edge.params[i], high = edge.params[i + 1], middle = low;
                     const bool rises = geometry::height(plane_, model_.at(edge.points[i])) < 0;
-                    for (int k = 0; k < kHalvings; ++k) {
+                    for (int k = 0; k < std::numeric_limits<double>::digits; ++k) {
                         middle = (low + high) / 2;
                         edge.curve->evaluate({&middle, 1}, {&place, 1}, context_);
                         const double h = geometry::height(plane_, place);

@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/select_faces.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/shared/face_facts.h>
 #include <lacuna/topology/shared/face_radius.h>
@@ -110,10 +111,9 @@ Vec3 mean_normal(const Model& model, FaceId face)
 {
     // The summed area vectors cancel around a closed skin. Below this share of the area, their direction is
     // only a rounding error.
-    constexpr double kRounding = 1e-2;
     const Vec3 vector = face_area_vector(model, face);
-    return vector.norm() > kRounding * face_area(model, face) ? Vec3(vector.normalized())
-                                                              : Vec3(Vec3::Zero());
+    return vector.norm() > kAlikeSizes * face_area(model, face) ? Vec3(vector.normalized())
+                                                                : Vec3(Vec3::Zero());
 }
 
 std::vector<FaceId> select(const Model& model, FaceSelector selector)

@@ -2,6 +2,8 @@
 #include <lacuna/topology/shared/split_edge.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/curve_place.h>
@@ -16,12 +18,6 @@
 namespace lacuna::topology {
 
 namespace {
-
-/// Allowed error of `curve_beside()` along the chord, as a share of the tolerance, and maximum number of
-/// steps. Each step divides the error by about the square of the number of chords per turn, so three steps
-/// are usually enough. More are needed on curves whose parameter is far from proportional to the arc length.
-constexpr double kShareOfTolerance = 1e-3;
-constexpr int kSteps = 8;
 
 /// The faces whose loops use an edge.
 std::vector<FaceId> users_of(const Model& model, EdgeId edge)
@@ -132,10 +128,10 @@ CurvePlace curve_beside(const Model& model, const Edge& edge, std::size_t segmen
     const Vec3 chord = (1 - fraction) * a + fraction * b;
     const double low = edge.params[segment], high = edge.params[segment + 1];
     CurvePlace on{(1 - fraction) * low + fraction * high, chord};
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kMostSteps; ++step) {
         edge.curve->evaluate({&on.param, 1}, {&on.place, 1});
         const double off = (chord - on.place).dot(b - a) / (b - a).squaredNorm();
-        if (std::abs(off) * (b - a).norm() <= kShareOfTolerance * model.tolerance) break;
+        if (std::abs(off) * (b - a).norm() <= kVisible * model.tolerance) break;
         on.param = std::clamp(on.param + off * (high - low), std::min(low, high), std::max(low, high));
     }
     return on;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/view/detail/json.h>
 
+#include <lacuna/core/message.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -44,15 +46,12 @@ Json& Json::key(std::string_view name)
 
 Json& Json::value(std::string_view text)
 {
-    constexpr std::string_view kDigits = "0123456789abcdef";
     comma();
     text_ += '"';
     for (const char c : text) {
         const auto code = static_cast<unsigned char>(c);
         if (code < 0x20 || c == '"' || c == '\\' || c == '<' || c == '>' || c == '&') {
-            text_ += "\\u00";
-            text_ += kDigits[code >> 4];
-            text_ += kDigits[code & 15];
+            text_ += formatted("\\u{:04x}", code);
         } else {
             text_ += c;
         }

@@ -61,11 +61,10 @@ PlacedLegend place_legend(const Legend& legend, int width, int height)
     double bottom = height - kEdge;
     if (!legend.ramp.empty()) {
         const double top = bottom - kLetters - kGap - kBarHigh, right = kEdge + kBarWide;
-        constexpr int kSteps = 90;
-        for (int i = 0; i < kSteps; ++i)
-            placed.marks.push_back({{kEdge + kBarWide * i / kSteps, top},
-                                    {kEdge + kBarWide * (i + 1) / kSteps, top + kBarHigh},
-                                    on_ramp(legend.ramp, (i + 0.5) / kSteps)});
+        for (int i = 0; i < kBarWide; ++i)
+            placed.marks.push_back({{kEdge + i, top},
+                                    {kEdge + i + 1, top + kBarHigh},
+                                    on_ramp(legend.ramp, (i + 0.5) / kBarWide)});
         const auto number = [](double value) {
             return with_decimals(value, value == std::floor(value) ? 0 : 1);
         };

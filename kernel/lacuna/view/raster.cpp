@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/segment.h>
 
@@ -19,7 +20,6 @@ constexpr double kMargin = 0.05;    // free margin, relative to the picture
 constexpr double kLeastShare = 0.5; // least part of the height left for the object
 constexpr double kSideWidth = 1.1;  // width of lines between cells [pixels]
 constexpr double kSideDark = 0.75;  // darkness of the lines
-constexpr double kNearer = 0.0008;  // lines are moved towards the viewer by this share of the depth range
 constexpr double kFront = -2;       // depth in front of everything else
 constexpr Colour kLineColour{20, 28, 38};
 
@@ -144,7 +144,7 @@ public:
         each(low, high, [&](const Vec2& at, std::size_t sample) {
             const double t = length > 0 ? std::clamp((at - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
             if ((at - a - t * (b - a)).norm() > half_width) return;
-            put(sample, from.z() + t * (to.z() - from.z()) - kNearer, colour);
+            put(sample, from.z() + t * (to.z() - from.z()) - kVisible, colour); // in front of its faces
         });
     }
 
@@ -171,9 +171,9 @@ public:
                 const auto at = 3 * (static_cast<std::size_t>(first_ / kSamples + y) *
                                          static_cast<std::size_t>(wide) +
                                      static_cast<std::size_t>(x));
-                constexpr int kAll = kSamples * kSamples;
                 for (std::size_t k = 0; k < 3; ++k)
-                    image.rgb[at + k] = static_cast<std::uint8_t>((sum[k] + kAll / 2) / kAll);
+                    image.rgb[at + k] = static_cast<std::uint8_t>((sum[k] + kSamples * kSamples / 2) /
+                                                                  (kSamples * kSamples));
             }
         }
     }

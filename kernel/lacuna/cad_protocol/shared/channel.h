@@ -11,6 +11,14 @@
 
 namespace lacuna::cad_protocol {
 
+/// Number of the CAD process's end of the connection among its descriptors.
+inline constexpr int kSocket = 3;
+/// Bytes that are copied, sent or allocated at once.
+inline constexpr int kBlock = 1 << 20;
+/// Pause between two looks at the other process, and between two reports of progress: a person notices no
+/// shorter one [ms].
+inline constexpr int kTick = 50;
+
 /// A file descriptor that is closed with the object.
 class Descriptor {
 public:

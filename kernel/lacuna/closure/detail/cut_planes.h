@@ -32,6 +32,9 @@ std::vector<Bend> bends_of(const topology::Model& model, const SkinTurns& turns)
 /// greatest length of bends is parallel.
 double length_to_cut(const std::vector<Bend>& bends);
 
+/// Whether a face turns by more than a right angle, as a bore does and a fillet does not.
+bool turns_as_bore(const topology::Model& model, FaceId face);
+
 /// A plane that may cut a volume into pieces that are easier to sweep.
 struct CutPlane {
     geometry::Plane plane;

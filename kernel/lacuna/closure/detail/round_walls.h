@@ -10,6 +10,10 @@
 
 namespace lacuna::closure {
 
+/// Add a four-sided wall, given its sides.
+void add_wall(FlatFilling& filling, const std::vector<std::vector<topology::EdgeUse>>& sides,
+              const RunContext& context);
+
 /// Add missing round walls between free loops, such as the wall of a bore or of a shaft. Each wall joins two
 /// rims on one axis with equal radii.
 ///

@@ -80,8 +80,6 @@ private:
                                                     ///< of that motion in `ways_`
     std::vector<double> heights_;
     bool closed_ = false; ///< whether some walls form a closed ring
-    bool tells_ = false;  ///< whether some walls that do not form a ring cover enough of their loop to
-                          ///< extrapolate the rest of it
     double bow_ = 0;
 };
 

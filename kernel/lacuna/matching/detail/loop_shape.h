@@ -10,9 +10,6 @@
 
 namespace lacuna::matching {
 
-/// Number of sample points of a loop in a fit. Each sample is tried as the start, so the cost grows with the
-/// square of this number. The best start is refined between samples afterwards.
-inline constexpr std::size_t kSamples = 64;
 /// Number of nearest loops whose samples take part in the fit of a loop. If all loops took part, the cost of
 /// each fit would grow with the number of loops.
 inline constexpr std::size_t kNearLoops = 8;

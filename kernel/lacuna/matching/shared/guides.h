@@ -29,7 +29,7 @@ struct Sections {
     std::vector<LoopSections> loops;
 };
 
-/// Cut the given walls at `count` + 1 even heights.
+/// Cut the given walls at `kFineChords` + 1 even heights.
 ///
 /// The height is harmonic (`wall_heights()`), so its level lines cut a bent tube about perpendicularly to the
 /// tube's axis. A level line is traversed with the uphill side on its left and sampled evenly between the
@@ -43,7 +43,7 @@ struct Sections {
 /// the rims, the open lines of the part are trimmed to the side lines that all of them cross. A wall part is
 /// ignored if a level cuts it in several lines (because of holes) or if it does not join both rims.
 /// @param lines  side_lines() of the volume
-Sections cut_sections(const topology::OpenVolume& volume, const std::vector<SideLine>& lines, int count,
+Sections cut_sections(const topology::OpenVolume& volume, const std::vector<SideLine>& lines,
                       const RunContext& context = {});
 
 } // namespace lacuna::matching

@@ -43,6 +43,11 @@ std::vector<SidePair> side_pairs(const topology::Model& model, FaceId face,
 /// loop does not turn by 360° in total.
 std::vector<SidePair> grid_sides(const topology::Model& model, FaceId face);
 
+/// Maximum ratio of the lengths, or of the numbers of quads, of opposite sides of a mapped face. If it is
+/// larger, the face is mapped only on request, because the lengths of its quads would have the same ratio.
+/// Heuristic.
+inline constexpr int kUnlike = 3;
+
 /// Whether the lengths of opposite sides are similar.
 bool alike(const topology::Model& model, const std::vector<SidePair>& pairs);
 

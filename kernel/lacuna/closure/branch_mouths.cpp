@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/branch_mouths.h>
+
+#include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/shared/branches.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/topology/shared/face_parts.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+std::vector<Vec3> places(const Model& model, const std::vector<EdgeId>& edges)
+{
+    std::vector<Vec3> result;
+    for (const EdgeId edge : edges) {
+        const std::vector<Index>& points = model[edge].points;
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) result.push_back(model.at(points[i]));
+    }
+    return result;
+}
+
+namespace {
+
+class BranchFinder {
+public:
+    BranchFinder(const OpenVolume& volume, const RunContext& context)
+        : volume_(volume), model_(volume.model), context_(context), ends_(volume.faces(Role::source))
+    {
+        std::ranges::copy(volume.faces(Role::target), std::back_inserter(ends_));
+    }
+
+    Branching run()
+    {
+        find_lines();
+        // Remove lines that are not mouths. The regions on both sides of such a line become one.
+        for (bool again = true; again;) {
+            find_regions();
+            again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
+        }
+        return std::move(result_);
+    }
+
+private:
+    void find_lines()
+    {
+        const std::vector<double> turns = concave_turns(volume_, context_);
+        const std::set<EdgeId> at_ends = edges_of(model_, ends_);
+        std::map<VertexId, std::vector<EdgeId>> at;
+        geometry::UnionFind sets(model_.edges.size());
+        std::vector<EdgeId> concave;
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+            if (at_ends.contains(EdgeId(e)) || turns[e] < kCreaseAngle / 2) continue;
+            concave.emplace_back(e);
+            for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
+                for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);
+                at[v].emplace_back(e);
+            }
+        }
+        std::map<std::size_t, std::vector<EdgeId>> lines;
+        for (const EdgeId edge : concave) lines[sets.find(edge.index())].push_back(edge);
+        for (auto& [root, edges] : lines) {
+            const bool closed = std::ranges::all_of(edges, [&](EdgeId edge) {
+                return at.at(model_[edge].from).size() == 2 && at.at(model_[edge].to).size() == 2;
+            });
+            if (closed) result_.mouths.push_back({std::move(edges)});
+        }
+    }
+
+    void find_regions()
+    {
+        std::set<EdgeId> barred;
+        for (const Mouth& mouth : result_.mouths) barred.insert(mouth.edges.begin(), mouth.edges.end());
+        geometry::UnionFind sets(model_.faces.size());
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+            if (barred.contains(EdgeId(e))) continue;
+            const std::span<const FaceUse> uses = model_.uses_of_edge(EdgeId(e));
+            for (const FaceUse& use : uses) sets.unite_least(uses.front().face.index(), use.face.index());
+        }
+        std::map<std::size_t, std::size_t> number;
+        result_.region.clear();
+        result_.faces.clear();
+        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+            const std::size_t own = number.try_emplace(sets.find(f), number.size()).first->second;
+            result_.region.push_back(own);
+            result_.faces.resize(number.size());
+            result_.faces[own].emplace_back(f);
+        }
+        result_.ends.assign(number.size(), {});
+        for (const std::vector<FaceId>& end : connected_parts(model_, ends_))
+            result_.ends[result_.region[end.front().index()]].push_back(centroid_of(model_, end));
+        for (const Rim& rim : free_loops(volume_)) {
+            std::vector<EdgeId> edges;
+            for (const EdgeUse& use : rim.uses) edges.push_back(use.edge);
+            const std::size_t own = result_.region[model_.uses_of_edge(edges.front()).front().face.index()];
+            result_.ends[own].push_back(geometry::mean_point(places(model_, edges)));
+        }
+    }
+
+    /// Decide which side of a mouth is the main body. @return false if the line is not a mouth.
+    bool set_sides(Mouth& mouth)
+    {
+        const std::span<const FaceUse> users = model_.uses_of_edge(mouth.edges.front());
+        mouth.host = result_.region[users[0].face.index()];
+        mouth.branch = result_.region[users[1].face.index()];
+        if (mouth.host == mouth.branch) return false;
+        const auto worth = [&](std::size_t region) {
+            const bool source = std::ranges::any_of(result_.faces[region], [&](FaceId face) {
+                return volume_.role[face.index()] == Role::source;
+            });
+            return std::pair(std::min<std::size_t>(result_.ends[region].size(), 2), source);
+        };
+        if (worth(mouth.host) < worth(mouth.branch)) std::swap(mouth.host, mouth.branch);
+        if (result_.ends[mouth.host].size() < 2) return false;
+        const std::vector<Vec3> rim = places(model_, mouth.edges);
+        const Vec3 centre = geometry::mean_point(rim);
+        const Vec3 normal = geometry::newell_vector(rim).normalized();
+        // If the normal of the line is parallel to the main body's axis, the section of the body changes
+        // there; the line is not a mouth.
+        const std::vector<Vec3>& ends = result_.ends[mouth.host];
+        const Vec3 way = ends.back() - ends.front();
+        if (ends.size() == 2 && way.cross(normal).norm() < kAlongAxis * way.norm()) return false;
+        if (!result_.ends[mouth.branch].empty()) return true;
+        // A shallow dimple counts as part of the wall.
+        double width = 0, depth = 0;
+        for (const Vec3& p : rim) width = std::max(width, (p - centre).norm());
+        for (const FaceId face : result_.faces[mouth.branch])
+            for (const Index p : corners_of(model_[face]))
+                depth = std::max(depth, std::abs((model_.at(p) - centre).dot(normal)));
+        return depth > width / 2;
+    }
+
+    const OpenVolume& volume_;
+    const Model& model_;
+    const RunContext& context_;
+    std::vector<FaceId> ends_; ///< faces of source and target
+    Branching result_;
+};
+
+} // namespace
+
+Branching find_mouths(const OpenVolume& volume, const RunContext& context)
+{
+    return BranchFinder(volume, context).run();
+}
+
+} // namespace lacuna::closure

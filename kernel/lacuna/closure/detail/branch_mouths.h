@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// A closed line of concave edges between a branch and its main body.
+struct Mouth {
+    std::vector<EdgeId> edges;
+    std::size_t host = 0, branch = 0; ///< the regions of the skin on the two sides of the mouth: main body
+                                      ///< and branch
+};
+
+/// The regions into which the mouths divide the skin, and the ends of each region.
+struct Branching {
+    std::vector<std::size_t> region;        ///< by face
+    std::vector<std::vector<FaceId>> faces; ///< by region
+    std::vector<std::vector<Vec3>> ends;    ///< centres of the ends, by region
+    std::vector<Mouth> mouths;
+};
+
+/// The mouths of all branches of a volume.
+Branching find_mouths(const topology::OpenVolume& volume, const RunContext& context);
+
+/// Points along some edges; the last point of each edge is left out.
+std::vector<Vec3> places(const topology::Model& model, const std::vector<EdgeId>& edges);
+
+} // namespace lacuna::closure
