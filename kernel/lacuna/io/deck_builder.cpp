@@ -150,15 +150,13 @@ DeckBuilder::Room DeckBuilder::add_elements(std::size_t block, std::size_t count
 {
     DeckBlock& to = deck_.blocks[block];
     const std::size_t first = to.count(), nodes = to.nodes.size();
-    // Grow geometrically, so that many small additions do not each copy all data.
-    const auto grow = [](auto& values, std::size_t size) {
-        if (size > values.capacity()) reserve_large(values, std::max(size, 2 * values.capacity()));
-        values.resize(size);
+    const auto grow = [](auto& values, std::size_t more, Index value) {
+        make_room(values, more);
+        values.resize(values.size() + more, value);
     };
-    grow(to.nodes, nodes + count * static_cast<std::size_t>(shape_info(to.shape).nodes));
-    grow(to.tags, first + count);
-    grow(to.regions, first + count);
-    std::fill(to.regions.begin() + static_cast<std::ptrdiff_t>(first), to.regions.end(), region);
+    grow(to.nodes, count * static_cast<std::size_t>(shape_info(to.shape).nodes), 0);
+    grow(to.tags, count, 0);
+    grow(to.regions, count, region);
     for (std::size_t i = 0; i < count; ++i) to.tags[first + i] = ++elements_;
     return {to.nodes.data() + nodes, to.tags.data() + first};
 }

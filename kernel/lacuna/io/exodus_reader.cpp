@@ -252,11 +252,15 @@ private:
                 reserve_large(points, count);
                 points.resize(count, Vec3::Zero());
             }
-            for (std::size_t p = 0; p < count; ++p) {
-                const double value = array.type->real(raw.data() + p * array.type->bytes, true);
-                if (!std::isfinite(value)) cursor_.fail("expected finite coordinates in {}", name);
-                points[p][static_cast<Index>(axis)] = value;
-            }
+            auto point = points.begin();
+            each_part<double>(*array.type, raw.substr(0, count * array.type->bytes), true,
+                              [&](std::span<const double> values) {
+                                  for (const double value : values) {
+                                      if (!std::isfinite(value))
+                                          cursor_.fail("expected finite coordinates in {}", name);
+                                      (*point++)[static_cast<Index>(axis)] = value;
+                                  }
+                              });
         }
         std::vector<DeckTag> tags = numbers("node_num_map", "node_map", count);
         const TagPlaces unique(tags, [&](Index, Index at) {
