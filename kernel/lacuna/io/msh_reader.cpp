@@ -401,8 +401,7 @@ private:
 
     void read_cell_2(const ElementType& type, std::uint64_t tag, int tags)
     {
-        int physical = 0;
-        int entity = 0;
+        int physical = 0, entity = 0;
         for (int k = 0; k < tags; ++k) {
             if (k == 0)
                 physical = group_tag();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/io/deck.h>
 #include <lacuna/io/detail/cursor.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -63,6 +65,8 @@ void each_equation_node(const AbaqusCard& card, const Take& take)
     });
 }
 
+/// The shape of an element by its type in capitals; empty if it is neither a shell nor a solid.
+std::optional<DeckShape> abaqus_shape(std::string_view type);
 /// Whether an element type (in capitals) is a hexahedron of a thin layer: a cohesive element, a gasket or a
 /// continuum shell. Its nodes 5 to 8 lie above nodes 1 to 4 in the direction of the thickness.
 bool is_layer(std::string_view type);
