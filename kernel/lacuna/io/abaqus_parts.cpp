@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/abaqus_parts.h>
+#include <lacuna/io/detail/abaqus.h>
 
 #include <algorithm>
 #include <limits>

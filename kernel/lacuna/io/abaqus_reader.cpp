@@ -3,7 +3,6 @@
 // Abaqus and CalculiX decks. Each part is read into a mesh of its own and placed once per instance; a deck
 // without parts is one part without a name.
 #include <lacuna/io/detail/abaqus.h>
-#include <lacuna/io/detail/abaqus_parts.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_files.h>
 

@@ -7,8 +7,6 @@
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
-#include <lacuna/io/detail/mesh_parts.h>
-#include <lacuna/io/detail/set_adder.h>
 #include <lacuna/io/detail/texts.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/mesh_parts.h>
+#include <lacuna/io/detail/mesh_deck.h>
 
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/io/cell_field.h>

@@ -7,7 +7,6 @@
 #include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/mesh_deck.h>
-#include <lacuna/io/detail/mesh_parts.h>
 
 #include <algorithm>
 #include <map>

@@ -104,7 +104,7 @@ private:
         cursor_.line();
         if (binary == 1) {
             cursor_.coding = std::endian::native == std::endian::little ? Coding::little : Coding::big;
-            if (cursor_.raw_integer() != 1)
+            if (cursor_.integer() != 1)
                 cursor_.fail(Message(kUnreadable, "the file has the byte order of another machine")
                                  .remedy("save the mesh as text"));
         } else if (binary != 0) {

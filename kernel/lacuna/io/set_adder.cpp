@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/set_adder.h>
+#include <lacuna/io/detail/mesh_deck.h>
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/io/detail/deck_builder.h>

@@ -144,8 +144,6 @@ public:
     /// Convert a word read before to a number. @throw InvalidInput  it is not a number.
     std::int64_t integer_of(std::string_view word) const;
     double real_of(std::string_view word, Exponents exponents = Exponents::plain) const;
-    /// 4 bytes in the byte order of this machine.
-    int raw_integer() { return raw<int>(); }
     std::string_view bytes(std::uint64_t count);
 
     /// Check a count of records before memory is allocated. It is refused if the rest of the file is too

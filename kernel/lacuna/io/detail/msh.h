@@ -86,8 +86,4 @@ struct MshGroups {
 /// @param all   each entity gets all its groups, not only one
 MshGroups msh_groups(const mesh::MeshView& view, const std::vector<char>& used, bool all);
 
-/// $Periodic of each pair of surfaces: nodes of the second one and their images on the first. Empty: there
-/// are none. @param old  the version is 2.2
-std::string msh_periodic(const mesh::MeshView& view, const MshNumbers& numbers, bool old);
-
 } // namespace lacuna::io
