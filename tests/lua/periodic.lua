@@ -398,6 +398,8 @@ do
     mesh:write(base .. ending, { orientation = true })
     check.that(read(base .. ending):find(word, 1, true), ending)
   end
+  local _, steps = read(base .. ".exo"):gsub("time_whole", "")
+  check.equal(steps, 1)  -- names of arrays are unique
   for e, x, y, z in read(base ..
     ".inp"):gmatch("\n(%d+), ([^,\n]+), ([^,\n]+), ([^,\n]+), [^,\n]+, [^,\n]+, [^,\n]+\n") do
     check.near(tonumber(x), 0, 1e-12)

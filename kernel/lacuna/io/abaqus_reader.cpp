@@ -5,82 +5,31 @@
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_files.h>
-#include <lacuna/io/detail/deck_writer.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <optional>
 
 namespace lacuna::io {
 namespace {
 
-/// A family of element types: the word at the start of their names, and their dimension. A number of nodes
-/// and letters follow the word: S4R, C3D8I.
-struct Family {
-    std::string_view word;
-    int dimension;
-};
-constexpr Family kFamilies[] = {{"C3D", 3},  {"DC3D", 3}, {"AC3D", 3},  {"SC", 3},    {"CSS", 3},
-                                {"S", 2},    {"DS", 2},   {"M3D", 2},   {"SFM3D", 2}, {"R3D", 2},
-                                {"STRI", 2}, {"CPS", 2},  {"CPE", 2},   {"CAX", 2},   {"DC2D", 2},
-                                {"DCAX", 2}, {"AC2D", 2}, {"DCC3D", 3}, {"CGAX", 2}};
-
-/// The shape of an element by its type in capitals; empty if it is neither a shell nor a solid.
-std::optional<DeckShape> shape_of(std::string_view type)
-{
-    for (const Family& family : kFamilies) {
-        if (!type.starts_with(family.word)) continue;
-        std::string_view rest = type.substr(family.word.size());
-        std::size_t digits = 0;
-        while (digits < rest.size() && std::isdigit(static_cast<unsigned char>(rest[digits])) != 0) ++digits;
-        auto nodes = parse_integer<int>(rest.substr(0, digits)).value_or(0);
-        if (digits == 0) continue;
-        rest.remove_prefix(digits);
-        if (!std::ranges::all_of(rest, [](unsigned char c) { return std::isalnum(c) != 0; })) continue;
-        if (family.word == "STRI" && nodes == 65) nodes = 6;
-        constexpr std::array<int, 5> kCorners{3, 4, 5, 6, 8};
-        const bool centred = family.dimension == 3 &&
-                             (nodes == 14 || nodes == 18 || nodes == 27); // shapes that no Abaqus element has
-        if (centred) continue;
-        for (const int corners : kCorners)
-            if (const auto shape = find_shape(family.dimension, corners, nodes)) return shape;
-    }
-    return std::nullopt;
-}
-
 /// Keywords that generate or move nodes or elements. A deck with such a keyword is refused, because it would
 /// be read as a different mesh.
 constexpr std::string_view kGenerators[] = {"NGEN",   "NFILL",  "NCOPY", "NMAP",  "ELGEN",
                                             "ELCOPY", "SYSTEM", "MODEL", "IMPORT"};
-struct Scope {
-    std::string name;
-    DeckBuilder builder{DeckFormat::abaqus};
-    std::map<std::string, std::size_t, std::less<>> sets; ///< index in the deck's sets, by kind and name in
-                                                          ///< capitals
-    struct Section {
-        std::string name, material;
-        std::vector<DeckTag> members;
-    };
-    std::vector<Section> sections;
-    bool placed = false;
-};
-
 class AbaqusReader {
 public:
     AbaqusReader(Cursor& cursor, DeckBuilder& into) : main_(cursor), into_(into), files_(cursor) {}
 
     void read()
     {
-        parts_.push_back(std::make_unique<Scope>());
-        scope_ = parts_.front().get();
-        read_file(main_, 0, 0);
+        read_file(main_, 0);
         finish_element();
         if (in_part_) main_.fail("the file ends within *PART");
-        finish();
+        parts_.finish(place_);
     }
 
 private:
@@ -88,9 +37,9 @@ private:
 
     // --- lines ---------------------------------------------------------------------------------------------
 
-    void read_file(Cursor& cursor, std::uint64_t file, int depth)
+    void read_file(Cursor& cursor, std::uint64_t file)
     {
-        budget_ += kMadePerByte * cursor.rest().size();
+        parts_.allow(cursor.rest().size());
         while (!cursor.at_end()) {
             std::string_view raw = cursor.raw_line();
             place_ = {&cursor, cursor.last(), file};
@@ -107,7 +56,7 @@ private:
                     words += trimmed(raw);
                 }
                 place_ = begin;
-                take_keyword(words, joined, depth);
+                take_keyword(words, joined);
             } else if (mode_ == Mode::none) {
                 keep(raw);
             } else {
@@ -135,13 +84,13 @@ private:
 
     // --- keywords ------------------------------------------------------------------------------------------
 
-    void take_keyword(const std::string& words, const std::string& raw, int depth)
+    void take_keyword(const std::string& words, const std::string& raw)
     {
         const Keyword keyword = parse_keyword(words);
         if (keyword.name == "INCLUDE") {
             const std::string name = keyword.value("INPUT");
-            Cursor& included = files_.include(name, place_, depth);
-            read_file(included, files_.last(), depth + 1);
+            Cursor& included = files_.include(name, place_);
+            read_file(included, files_.last());
             return;
         }
         finish_element();
@@ -186,21 +135,12 @@ private:
         if (instance_part_ != nullptr) fail("*PART within *INSTANCE");
         if (end != in_part_) fail("{}", end ? "*END PART without *PART" : "*PART within *PART");
         in_part_ = !end;
-        scope_ = parts_.front().get();
+        scope_ = &parts_.outside();
         if (end) return;
         const std::string name = keyword.value("NAME");
         if (name.empty()) fail("*PART: expected NAME=");
-        if (find_part(name) != nullptr) fail("*PART: the part {} is defined twice", shown(name));
-        parts_.push_back(std::make_unique<Scope>());
-        scope_ = parts_.back().get();
-        scope_->name = name;
-    }
-
-    Scope* find_part(std::string_view name) const
-    {
-        const auto found = std::find_if(parts_.begin() + 1, parts_.end(),
-                                        [&](const auto& part) { return same_word(part->name, name); });
-        return found == parts_.end() ? nullptr : found->get();
+        if (parts_.find(name) != nullptr) fail("*PART: the part {} is defined twice", shown(name));
+        scope_ = &parts_.add(name);
     }
 
     void begin_instance(const Keyword& keyword)
@@ -213,7 +153,7 @@ private:
         if (in_part_ || instance_part_ != nullptr) fail("*INSTANCE within *PART or *INSTANCE");
         instance_name_ = keyword.value("NAME");
         const std::string part = keyword.value("PART");
-        instance_part_ = find_part(part);
+        instance_part_ = parts_.find(part);
         if (instance_name_.empty() || instance_part_ == nullptr)
             fail("*INSTANCE: expected NAME= and, as PART=, a part defined above; found {}",
                  found(shown(part)));
@@ -245,7 +185,7 @@ private:
             fail("*ELEMENT: expected TYPE= and a word of letters and digits, found {}", found(shown(type_)));
         const std::string set = keyword.value("ELSET");
         set_ = open_set(DeckSet::Kind::elements, set);
-        const std::optional<DeckShape> shape = shape_of(type_);
+        const std::optional<DeckShape> shape = abaqus_shape(type_);
         if (!shape) {
             mode_ = Mode::other_elements;
             keep(raw);
@@ -305,7 +245,7 @@ private:
         return std::to_string(static_cast<int>(kind)) + upper(name);
     }
 
-    DeckSet* find_set(Scope& scope, DeckSet::Kind kind, std::string_view name)
+    DeckSet* find_set(AbaqusPart& scope, DeckSet::Kind kind, std::string_view name)
     {
         const auto found = scope.sets.find(key_of(kind, name));
         return found == scope.sets.end() ? nullptr : &scope.builder.deck().sets[found->second];
@@ -347,27 +287,27 @@ private:
             members.push_back(*number + offset);
             return;
         }
-        Scope* scope = scope_;
-        if (instance >= 0) scope = find_part(into_.deck().instances[index(instance)].part);
+        AbaqusPart* scope = scope_;
+        if (instance >= 0) scope = parts_.find(into_.deck().instances[index(instance)].part);
         const DeckSet* found = find_set(*scope, kind, word);
         if (found == nullptr)
             fail("expected a number or the name of a set above, found {}", lacuna::found(shown(word)));
         const std::vector<DeckTag> copy = found->members; // a copy: `members` may belong to the same set
-        spend(copy.size());
+        parts_.spend(copy.size(), place_);
         for (const DeckTag tag : copy) members.push_back(tag + offset);
     }
 
     /// Add all nodes of the elements in an earlier set to the current set.
     void add_nodes_of(const std::string& elements)
     {
-        constexpr auto kElements = DeckSet::Kind::elements;
         std::vector<DeckTag> cells;
-        members_of(elements, kElements, cells);
+        members_of(elements, DeckSet::Kind::elements, cells);
         std::ranges::sort(cells);
-        const bool of_instance = of_instance_ >= 0 || (elements.find('.') != std::string::npos &&
-                                                       find_set(*scope_, kElements, elements) == nullptr);
+        const bool of_instance = of_instance_ >= 0 ||
+                                 (elements.find('.') != std::string::npos &&
+                                  find_set(*scope_, DeckSet::Kind::elements, elements) == nullptr);
         const Deck& deck = of_instance ? into_.deck() : scope_->builder.deck();
-        spend(deck.element_count());
+        parts_.spend(deck.element_count(), place_);
         for (const DeckBlock& block : deck.blocks)
             for (std::size_t e = 0; e < block.count(); ++e) {
                 if (!std::ranges::binary_search(cells, block.tags[e])) continue;
@@ -497,7 +437,7 @@ private:
             fail("expected an increasing range 'first, last, step', found {}, {}, {}", found(first), last,
                  step);
         const DeckTag offset = of_instance_ < 0 ? 0 : into_.deck().instances[index(of_instance_)].offset;
-        spend(index(last - first) / index(step));
+        parts_.spend(index(last - first) / index(step), place_);
         for (std::int64_t tag = first; tag <= last; tag += step) set().members.push_back(tag + offset);
     }
 
@@ -528,62 +468,6 @@ private:
 
     // --- putting together ----------------------------------------------------------------------------------
 
-    /// Assign regions by the sections, and replace node tags by indices.
-    void finish_scope(Scope& scope)
-    {
-        if (std::exchange(scope.placed, true)) return;
-        Deck& deck = scope.builder.deck();
-        for (DeckSet& set : deck.sets) tidy(set);
-        const TagPlaces nodes(deck.point_tags, [&](Index, Index second) {
-            main_.fail("{}{} is defined twice", scope.name.empty() ? "" : formatted("part {}: ", scope.name),
-                       numbered("node", deck.point_tags[index(second)]));
-        });
-        scope.builder.resolve(
-            nodes, [&](std::uint64_t place, const Message& why) { files_.place_of(place).fail(why); });
-        if (scope.sections.empty()) take_sets_for_sections(scope);
-        if (scope.sections.empty()) return;
-        const std::vector<DeckTag> tags = element_tags(deck);
-        std::vector<Index*> regions;
-        for (DeckBlock& block : deck.blocks)
-            for (Index& region : block.regions) regions.push_back(&region);
-        const TagPlaces elements(tags);
-        for (const Scope::Section& section : scope.sections) {
-            const Index region = region_called(scope, section.name);
-            deck.regions[index(region)].material = section.material;
-            for (const DeckTag tag : section.members)
-                if (const Index e = elements.find(tag); e >= 0) *regions[index(e)] = region;
-        }
-    }
-
-    /// If there are no sections and *ELEMENT names no set, the element sets become the regions, provided each
-    /// element is in exactly one of them. Other programs convert regions to such sets.
-    static void take_sets_for_sections(Scope& scope)
-    {
-        const Deck& deck = scope.builder.deck();
-        if (std::ranges::find(deck.regions, scope.name, &DeckRegion::name) == deck.regions.end()) return;
-        std::vector<Scope::Section> sections;
-        std::vector<DeckTag> members, tags = element_tags(deck);
-        for (const DeckSet& set : deck.sets) {
-            if (set.kind != DeckSet::Kind::elements) continue;
-            sections.push_back({set.name, "", set.members});
-            members.insert(members.end(), set.members.begin(), set.members.end());
-        }
-        if (members.size() != tags.size()) return;
-        std::ranges::sort(tags);
-        std::ranges::sort(members);
-        if (members == tags) scope.sections = std::move(sections);
-    }
-
-    /// Index of the region named after an element set. It exists if an *ELEMENT line names the set; otherwise
-    /// it is added.
-    static Index region_called(Scope& scope, const std::string& name)
-    {
-        const std::vector<DeckRegion>& all = scope.builder.deck().regions;
-        const auto found = find_word(all, name, &DeckRegion::name);
-        return found == all.end() ? scope.builder.add_region(0, name)
-                                  : static_cast<Index>(found - all.begin());
-    }
-
     /// Placement of an instance: a translation, then a rotation about an axis.
     [[nodiscard]] Eigen::Isometry3d placement() const
     {
@@ -600,113 +484,18 @@ private:
         return to;
     }
 
-    void place_instance(Scope* part)
+    void place_instance(AbaqusPart* part)
     {
-        finish_scope(*part);
-        copy(*part, instance_name_, placement(), !rows_.empty());
+        const Eigen::Isometry3d to = placement();
+        parts_.place(*part, instance_name_, rows_.empty() ? nullptr : &to, place_);
     }
-
-    /// Add a copy of a part to the deck. Its numbers are raised unless all of them are above those in the
-    /// deck.
-    void copy(Scope& scope, const std::string& name, const Eigen::Isometry3d& to, bool moved)
-    {
-        const Deck& part = scope.builder.deck();
-        Deck& deck = into_.deck();
-        const auto extend = [](std::pair<DeckTag, DeckTag>& range, const std::vector<DeckTag>& tags) {
-            for (const DeckTag tag : tags) range = {std::min(range.first, tag), std::max(range.second, tag)};
-        };
-        std::pair<DeckTag, DeckTag> own{std::numeric_limits<DeckTag>::max(), -1};
-        extend(own, part.point_tags);
-        for (const DeckBlock& block : part.blocks) extend(own, block.tags);
-        spend(part.points.size() + part.element_count());
-        for (const DeckSet& of : part.sets) spend(of.members.size() + of.sides.size() + 1);
-        const DeckTag offset = own.first <= highest_ ? highest_ : 0;
-        highest_ = std::max(highest_, own.second + offset);
-        const auto first = static_cast<Index>(deck.points.size());
-        deck.instances.push_back({name, scope.name, deck.points.size(), part.points.size(), offset});
-        for (std::size_t p = 0; p < part.points.size(); ++p) {
-            deck.points.push_back(moved ? Vec3(to * part.points[p]) : part.points[p]);
-            if (!deck.points.back().allFinite())
-                main_.fail("instance {}: coordinates of a node are too large", name);
-            deck.point_tags.push_back(part.point_tags[p] + offset);
-        }
-        const auto first_region = static_cast<Index>(deck.regions.size());
-        for (DeckRegion region : part.regions) {
-            region.part = name;
-            deck.regions.push_back(std::move(region));
-        }
-        for (const DeckBlock& block : part.blocks) {
-            const std::size_t place = into_.block_of(block.shape, block.type);
-            append_block(block, first, first_region, offset, deck.blocks[place]);
-        }
-        for (const DeckSet& set : part.sets) {
-            raise_numbers(deck.sets.emplace_back(set), offset, offset);
-            set_instance_.push_back(static_cast<Index>(deck.instances.size()) - 1);
-        }
-    }
-
-    void finish()
-    {
-        Scope& global = *parts_.front();
-        Deck& deck = into_.deck();
-        if (parts_.size() == 1) {
-            finish_scope(global);
-            Deck& whole = global.builder.deck();
-            deck.points = std::move(whole.points);
-            deck.point_tags = std::move(whole.point_tags);
-            deck.blocks = std::move(whole.blocks);
-            deck.regions = std::move(whole.regions);
-            deck.sets = std::move(whole.sets);
-        } else {
-            // If there are no instances, each part is added once, in its own coordinates.
-            rows_.clear();
-            if (deck.instances.empty())
-                for (std::size_t p = 1; p < parts_.size(); ++p) {
-                    finish_scope(*parts_[p]);
-                    copy(*parts_[p], parts_[p]->name, Eigen::Isometry3d::Identity(), false);
-                }
-            if (deck.instances.size() > 1)
-                for (std::size_t s = 0; s < set_instance_.size(); ++s)
-                    deck.sets[s].name = deck.instances[index(set_instance_[s])].name + "." +
-                                        deck.sets[s].name;
-            const bool sections = !global.sections.empty();
-            global.sections.clear();
-            finish_scope(global);
-            if (sections) into_.pass_over("sections of the assembly");
-            // Add the nodes and sets of the assembly itself. The numbers in its sets already include the
-            // offsets of the instances.
-            std::vector<DeckSet> sets = std::move(global.builder.deck().sets);
-            global.builder.deck().sets.clear();
-            if (!global.builder.deck().points.empty())
-                copy(global, "assembly", Eigen::Isometry3d::Identity(), false);
-            for (DeckSet& set : sets) deck.sets.push_back(std::move(set));
-        }
-        for (std::size_t r = 0; r < deck.regions.size(); ++r) deck.regions[r].tag = static_cast<int>(r) + 1;
-        std::erase_if(deck.blocks, [](const DeckBlock& block) { return block.count() == 0; });
-    }
-
-    /// Count generated data against a budget. Ranges and copies create more than the file contains, so their
-    /// amount is limited by the size of the files.
-    void spend(std::size_t count)
-    {
-        if (count > budget_)
-            fail("ranges, sets and instances generate too many entries for a file of this size");
-        budget_ -= count;
-    }
-    // Number of set members and copied entities that each byte of the file may generate. It allows about
-    // fifty sets of all elements; not measured.
-    static constexpr std::size_t kMadePerByte = 16;
-
-    std::size_t budget_ = 100'000; // entities that even a small deck may generate
 
     Cursor& main_;
     DeckBuilder& into_;
     DeckFiles files_;
-    std::vector<std::unique_ptr<Scope>> parts_; ///< the first scope holds the entities outside all parts
-    Scope* scope_ = nullptr;
-    std::map<std::pair<Scope*, std::string>, Index> regions_;
-    std::vector<Index> set_instance_; ///< index of each set's instance; sets of the assembly come last and
-                                      ///< have no entry
+    AbaqusParts parts_{main_, into_, files_};
+    AbaqusPart* scope_ = &parts_.outside(); ///< what the deck's lines describe
+    std::map<std::pair<AbaqusPart*, std::string>, Index> regions_;
     DeckPlace place_, element_place_;
     Mode mode_ = Mode::none;
     bool mesh_begun_ = false, in_part_ = false, cylindrical_ = false, generate_ = false, goes_on_ = false;
@@ -719,105 +508,11 @@ private:
                                   ///< yet
     Index region_ = 0;
     std::array<Index, 28> element_{}; ///< tag and nodes of the element that is being read
-    Scope* instance_part_ = nullptr;
+    AbaqusPart* instance_part_ = nullptr;
     std::vector<std::vector<double>> rows_; ///< data lines of an instance
-    DeckTag highest_ = 0;
 };
 
 } // namespace
-
-const std::string* Keyword::find(std::string_view key) const
-{
-    for (const auto& [name_of, value] : parameters)
-        if (name_of == key) return &value;
-    return nullptr;
-}
-
-std::string Keyword::value(std::string_view key) const
-{
-    const std::string* found = find(key);
-    return found == nullptr ? std::string() : *found;
-}
-
-Keyword parse_keyword(std::string_view words)
-{
-    Keyword keyword;
-    words.remove_prefix(1);
-    for (bool first = true; !words.empty() || first; first = false) {
-        const std::string_view field = next_field(words);
-        const std::size_t equals = std::min(field.find('='), field.size());
-        std::string key = upper(field.substr(0, equals));
-        std::erase_if(key, [](char c) { return is_blank(c); });
-        if (first) {
-            keyword.name = key;
-            continue;
-        }
-        std::string_view value = equals < field.size() ? trimmed(field.substr(equals + 1))
-                                                       : std::string_view();
-        if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
-            value = value.substr(1, value.size() - 2);
-        if (!key.empty()) keyword.parameters.emplace_back(std::move(key), std::string(value));
-    }
-    return keyword;
-}
-
-std::vector<AbaqusCard> abaqus_cards(std::string_view text)
-{
-    std::vector<AbaqusCard> cards(1);
-    for (std::size_t begin = 0, at = 0; at < text.size(); begin = at) {
-        const auto next_line = [&] {
-            const std::size_t from = at, end = std::min(text.find('\n', at), text.size());
-            at = std::min(end + 1, text.size());
-            return trimmed(text.substr(from, end - from));
-        };
-        const std::string_view line = next_line();
-        const bool comment = line.starts_with("**"), keyword = !comment && line.starts_with('*');
-        if (keyword) {
-            std::string words(line);
-            while (words.ends_with(',') && at < text.size()) words += next_line();
-            cards.push_back({parse_keyword(words)});
-        }
-        AbaqusCard& card = cards.back();
-        const auto extend = [&](std::string_view& lines) {
-            lines = text.substr(lines.empty() ? begin : static_cast<std::size_t>(lines.data() - text.data()));
-            lines = lines.substr(0, at - static_cast<std::size_t>(lines.data() - text.data()));
-        };
-        extend(card.text);
-        if (!keyword && !comment) extend(card.data);
-    }
-    return cards;
-}
-
-bool is_section(const Keyword& keyword)
-{
-    constexpr std::string_view kSections[] = {"SOLIDSECTION",   "SHELLSECTION",        "MEMBRANESECTION",
-                                              "SURFACESECTION", "SHELLGENERALSECTION", "SOLIDSHELLSECTION",
-                                              "RIGIDBODY"};
-    return std::ranges::find(kSections, keyword.name) != std::end(kSections);
-}
-
-bool is_layer(std::string_view type)
-{
-    return std::ranges::any_of(std::array{"COH3D8", "GK3D8", "SC8R", "CSS8"},
-                               [&](const char* word) { return type.starts_with(word); });
-}
-
-std::string layer_wedge(std::string_view type)
-{
-    if (!is_layer(type) || type.starts_with("CSS")) return {};
-    std::string wedge(type);
-    wedge[wedge.find('8')] = '6';
-    return wedge;
-}
-
-bool is_abaqus_element(std::string_view type, DeckShape shape)
-{
-    // Cohesive elements and gaskets are written, but not read: they may have no thickness.
-    const bool thin = type.starts_with("COH3D") || type.starts_with("GK3D");
-    if (thin && type.substr(type.find('D') + 1).starts_with('8')) return shape == DeckShape::hex8;
-    if (thin && type.substr(type.find('D') + 1).starts_with('6')) return shape == DeckShape::wedge6;
-    return shape_of(type) == shape;
-}
 
 void read_abaqus(Cursor& cursor, DeckBuilder& into) { AbaqusReader(cursor, into).read(); }
 

@@ -7,6 +7,7 @@
 #include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace lacuna::io {
@@ -15,35 +16,29 @@ namespace {
 /// The source quad at each rim side.
 std::vector<std::uint32_t> quads_of_rim(const mesh::HexMesh& mesh)
 {
-    struct Side {
-        Segment ends;
-        std::uint32_t quad;
-    };
     Marks on_rim(index(mesh.nodes_per_layer));
     for (const Segment& segment : mesh.rim)
         for (const Index n : segment)
             if (n >= 0 && n < mesh.nodes_per_layer) on_rim.add(n);
-    std::vector<Side> sides; // sides between two rim nodes: the sides of the rim and a few others
+    std::map<Segment, std::uint32_t> quad_of; // for each side between two rim nodes; a few are not of the rim
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         const Quad& quad = mesh.quads[q];
         for (std::size_t k = 0; k < 4; ++k) {
             const Index from = quad[k], to = quad[(k + 1) % 4];
             if (on_rim.has(from) && on_rim.has(to))
-                sides.push_back({{from, to}, static_cast<std::uint32_t>(q)});
+                quad_of.emplace(Segment{from, to}, static_cast<std::uint32_t>(q));
         }
     }
-    const auto before = [](const Side& a, const Side& b) { return a.ends < b.ends; };
-    std::sort(sides.begin(), sides.end(), before);
     std::vector<std::uint32_t> quads;
     quads.reserve(mesh.rim.size());
     for (const Segment& segment : mesh.rim) {
-        const auto at = std::lower_bound(sides.begin(), sides.end(), Side{segment, 0}, before);
-        if (at == sides.end() || at->ends != segment)
+        const auto at = quad_of.find(segment);
+        if (at == quad_of.end())
             throw InvalidInput(
                 Message("io.rim", "the edge from {} to {} of the boundary belongs to no quad of the source",
                         numbered("node", segment[0] + 1), numbered("node", segment[1] + 1))
                     .remedy("give boundary edges of the source's quads"));
-        quads.push_back(at->quad);
+        quads.push_back(at->second);
     }
     return quads;
 }

@@ -31,8 +31,7 @@ std::string plain_exponent(std::string_view text)
 
 std::optional<double> parse_real(std::string_view text, Exponents exponents)
 {
-    constexpr std::size_t kLongest = 400; // characters: a double written out in full has some 330
-    if (text.size() > kLongest) return {};
+    if (text.size() > kLongestReal) return {};
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

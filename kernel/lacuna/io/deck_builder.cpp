@@ -150,15 +150,13 @@ DeckBuilder::Room DeckBuilder::add_elements(std::size_t block, std::size_t count
 {
     DeckBlock& to = deck_.blocks[block];
     const std::size_t first = to.count(), nodes = to.nodes.size();
-    // Grow geometrically, so that many small additions do not each copy all data.
-    const auto grow = [](auto& values, std::size_t size) {
-        if (size > values.capacity()) reserve_large(values, std::max(size, 2 * values.capacity()));
-        values.resize(size);
+    const auto grow = [](auto& values, std::size_t more, Index value) {
+        make_room(values, more);
+        values.resize(values.size() + more, value);
     };
-    grow(to.nodes, nodes + count * static_cast<std::size_t>(shape_info(to.shape).nodes));
-    grow(to.tags, first + count);
-    grow(to.regions, first + count);
-    std::fill(to.regions.begin() + static_cast<std::ptrdiff_t>(first), to.regions.end(), region);
+    grow(to.nodes, count * static_cast<std::size_t>(shape_info(to.shape).nodes), 0);
+    grow(to.tags, count, 0);
+    grow(to.regions, count, region);
     for (std::size_t i = 0; i < count; ++i) to.tags[first + i] = ++elements_;
     return {to.nodes.data() + nodes, to.tags.data() + first};
 }
@@ -207,21 +205,6 @@ void DeckBuilder::pass_over(const std::string& what, std::size_t count)
     if (count > 0) passed_over_[known ? what : "others"] += count;
 }
 
-std::string DeckBuilder::counted() const
-{
-    constexpr std::size_t kMostNamed = 12; // keeps the line readable
-    std::string text;
-    std::size_t named = 0;
-    std::size_t others = 0;
-    for (const auto& [what, count] : passed_over_) {
-        if (named++ < kMostNamed)
-            text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
-        else
-            others += count;
-    }
-    return others > 0 ? text + " and " + std::to_string(others) + " others" : text;
-}
-
 void DeckBuilder::check_points(const std::string& path) const
 {
     constexpr double kFarthest = 1e100; // largest coordinate: its cube is still a finite number
@@ -238,8 +221,9 @@ Deck DeckBuilder::take(const std::string& path)
     check_points(path);
     deck_.path = path;
     if (deck_.format == DeckFormat::abaqus || deck_.format == DeckFormat::unv) take_out_pyramids(deck_);
-    const std::string passed = counted();
-    if (!passed.empty()) deck_.notes.push_back(formatted("{}: passed over {}", path, passed));
+    std::vector<std::string> passed;
+    for (const auto& [what, count] : passed_over_) passed.push_back(formatted("{} {}", count, what));
+    if (!passed.empty()) deck_.notes.push_back(formatted("{}: passed over {}", path, listed(passed)));
     for (const auto& [type, count] : further_nodes_)
         warn(formatted("elements {} list too many nodes; up to {} nodes per element are ignored", type,
                        count));

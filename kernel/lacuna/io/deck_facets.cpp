@@ -229,8 +229,6 @@ private:
 
     void label_shells()
     {
-        constexpr int kMostSingles = 20; // with more labels of one shell each, they would be hard to tell
-                                         // apart
         std::map<Label, int> shells;
         label_of_shell_.resize(shells_.count());
         shells_.each([&](std::size_t e, const Elements::Element& element) {
@@ -238,7 +236,7 @@ private:
             ++shells[label_of_shell_[e]];
         });
         const auto singles = std::ranges::count(shells, 1, &std::pair<const Label, int>::second);
-        if (singles <= kMostSingles) return;
+        if (singles <= kMostListed) return; // more labels of one shell each would be hard to tell apart
         singles_ = static_cast<std::size_t>(singles);
         for (Label& label : label_of_shell_)
             if (shells[label] == 1) label = {kSingles, 0, label.a, label.b};

@@ -10,26 +10,24 @@ namespace lacuna::io {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kDeepest = 20;             // nested files; well above usual decks
 constexpr std::size_t kMostFiles = 1000; // included files; well above usual decks
 
 } // namespace
 
 struct DeckFiles::File {
-    explicit File(const std::string& path) : bytes(read_file(path)), cursor(path, bytes) {}
+    File(const std::string& path, std::uint64_t by) : bytes(read_file(path)), cursor(path, bytes), from(by) {}
     std::string bytes;
     Cursor cursor;
+    std::uint64_t from; ///< number of the file that includes it
 };
 
 DeckFiles::DeckFiles(Cursor& main) : main_(main), folder_(fs::path(main.path()).parent_path()) {}
 
-Cursor& DeckFiles::include(const std::string& name, const DeckPlace& place, int depth)
+Cursor& DeckFiles::include(const std::string& name, const DeckPlace& place)
 {
     if (name.empty() || name.size() > kLongestName || name.find('\0') != std::string::npos)
         place.fail("INCLUDE: expected the name of a file");
-    if (depth >= kDeepest || files_.size() >= kMostFiles)
-        place.fail(Message(kUnreadable, "INCLUDE: files are nested too deeply")
-                       .remedy("check that no file includes itself"));
+    if (files_.size() >= kMostFiles) place.fail("INCLUDE: the deck includes more than {} files", kMostFiles);
     // Links are resolved before comparing.
     std::error_code error;
     const fs::path base = fs::weakly_canonical(folder_.empty() ? fs::path(".") : folder_, error);
@@ -38,8 +36,12 @@ Cursor& DeckFiles::include(const std::string& name, const DeckPlace& place, int 
     if (error || end != base.end())
         place.fail(Message(kUnreadable, "INCLUDE: {} is not in the deck's folder", shown(name))
                        .remedy("put it there and name it without its folder"));
+    bool is_open = fs::weakly_canonical(main_.path(), error) == wanted;
+    for (std::uint64_t file = place.file; file > 0; file = files_[file - 1]->from)
+        is_open = is_open || files_[file - 1]->cursor.path() == wanted;
+    if (is_open) place.fail("INCLUDE: {} includes itself, directly or through other files", shown(name));
     try {
-        files_.push_back(std::make_shared<File>(wanted.string()));
+        files_.push_back(std::make_shared<File>(wanted.string(), place.file));
     } catch (const InvalidInput& trouble) {
         place.fail(Message(kUnreadable, "INCLUDE: {}", trouble.what()).attempt(trouble.message()));
     }

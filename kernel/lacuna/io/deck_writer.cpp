@@ -16,9 +16,6 @@
 namespace lacuna::io {
 namespace {
 
-/// More than the length of any double with 17 decimals, even after `with_point()` inserts a point.
-constexpr std::size_t kRoom = 400;
-
 /// Convert the output of to_chars() to a number with a decimal point and a short exponent. The exponent
 /// follows `e_letter`, or is only its sign and digits if `e_letter` is 0.
 std::size_t with_point(char* text, std::size_t length, std::size_t width, char e_letter)
@@ -56,11 +53,7 @@ void nastran_numbers(std::string_view line, TextNumbers& numbers)
 {
     const auto starts = [&](std::string_view word) { return same_word(line.substr(0, word.size()), word); };
     if (starts("SPOINT")) {
-        line.remove_prefix(6);
-        constexpr std::string_view kBetween = ", \t";
-        for (auto word = next_word(line, kBetween); !word.empty(); word = next_word(line, kBetween))
-            if (const auto tag = parse_integer<DeckTag>(word)) numbers.nodes.insert(*tag);
-        return;
+        return each_whole(line.substr(6), [&](DeckTag tag) { numbers.nodes.insert(tag); });
     }
     const auto tag = parse_integer<DeckTag>(second_field(line));
     if (!tag || *tag < 1) return;
@@ -149,16 +142,17 @@ std::string_view text_of(mesh::MeshView::TextByIndex texts, std::size_t index)
 
 char* put_real(char* out, double value, std::size_t width, RealForm form)
 {
-    char best[kRoom], text[kRoom];
+    char best[kLongestReal], text[kLongestReal]; // with room for what `with_point()` inserts
     const char letter = form == RealForm::nastran ? '\0' : 'E';
     std::size_t length = with_point(
-        best, static_cast<std::size_t>(std::to_chars(best, best + kRoom, value).ptr - best), width, letter);
+        best, static_cast<std::size_t>(std::to_chars(best, best + kLongestReal, value).ptr - best), width,
+        letter);
     if (length > width) {
         double error = HUGE_VAL;
         length = 0;
         for (const auto format : {std::chars_format::fixed, std::chars_format::scientific})
             for (int digits = static_cast<int>(width); digits >= 0; --digits) {
-                const auto end = std::to_chars(text, text + kRoom - 10, value, format, digits);
+                const auto end = std::to_chars(text, text + kLongestReal - 10, value, format, digits);
                 if (end.ec != std::errc()) break;
                 const std::size_t found = with_point(text, static_cast<std::size_t>(end.ptr - text), width,
                                                      letter);
@@ -209,9 +203,8 @@ std::string free_name(std::string_view name, DeckFormat format,
 
 bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b)
 {
-    constexpr auto kNodes = DeckSet::Kind::nodes;
-    return a == b || format == DeckFormat::unv ||
-           (format == DeckFormat::abaqus && a != kNodes && b != kNodes);
+    using enum mesh::SetKind;
+    return a == b || format == DeckFormat::unv || (format == DeckFormat::abaqus && a != nodes && b != nodes);
 }
 
 TextNumbers numbers_in_text(const Deck& deck)

@@ -252,11 +252,15 @@ private:
                 reserve_large(points, count);
                 points.resize(count, Vec3::Zero());
             }
-            for (std::size_t p = 0; p < count; ++p) {
-                const double value = array.type->real(raw.data() + p * array.type->bytes, true);
-                if (!std::isfinite(value)) cursor_.fail("expected finite coordinates in {}", name);
-                points[p][static_cast<Index>(axis)] = value;
-            }
+            auto point = points.begin();
+            each_part<double>(*array.type, raw.substr(0, count * array.type->bytes), true,
+                              [&](std::span<const double> values) {
+                                  for (const double value : values) {
+                                      if (!std::isfinite(value))
+                                          cursor_.fail("expected finite coordinates in {}", name);
+                                      (*point++)[static_cast<Index>(axis)] = value;
+                                  }
+                              });
         }
         std::vector<DeckTag> tags = numbers("node_num_map", "node_map", count);
         const TagPlaces unique(tags, [&](Index, Index at) {
@@ -272,7 +276,7 @@ private:
         std::vector<std::string> all;
         for (const std::int64_t id : ids) all.push_back(what + "_" + std::to_string(id));
         const NcArray* named = head_.find(array);
-        if (named == nullptr || named->lengths.size() != 2 || named->lengths[1] > kLongestName) return all;
+        if (named == nullptr || named->lengths.size() != 2) return all;
         const std::size_t length = named->lengths[1];
         const std::string_view text = head_.bytes(*named, array, ids.size() * length);
         for (std::size_t i = 0; i < all.size(); ++i) {
@@ -291,6 +295,11 @@ private:
         return all;
     }
 
+    static int tag_of(std::int64_t id)
+    {
+        return static_cast<int>(std::clamp<std::int64_t>(id, 0, std::numeric_limits<int>::max() - 1));
+    }
+
     void read_blocks()
     {
         const std::size_t count = head_.dimension("num_el_blk");
@@ -307,8 +316,7 @@ private:
         std::size_t first = 0;
         for (std::size_t b = 0; b < count; ++b) {
             std::optional<Index> own;
-            first += read_block("connect" + std::to_string(b + 1), name[b],
-                                static_cast<int>(std::clamp<std::int64_t>(id[b], 0, kMostTag)), first,
+            first += read_block("connect" + std::to_string(b + 1), name[b], tag_of(id[b]), first,
                                 several ? regions[whole[b]] : own);
         }
     }
@@ -397,9 +405,7 @@ private:
             const std::string number = std::to_string(s + 1);
             const NcArray* members = head_.find(list + number);
             if (members == nullptr) continue; // an empty set
-            DeckSet set{.kind = of,
-                        .tag = static_cast<int>(std::clamp<std::int64_t>(id[s], 0, kMostTag)),
-                        .name = name[s]};
+            DeckSet set{.kind = of, .tag = tag_of(id[s]), .name = name[s]};
             const std::size_t many = head_.dimension(length + number);
             const std::vector<std::int64_t> all = head_.wholes(*members, list + number, many);
             std::vector<std::int64_t> sides;
@@ -428,9 +434,6 @@ private:
             cursor_.fail("{} names side {}, which the element does not have", array, exodus);
         return side;
     }
-
-    static constexpr std::int64_t kMostTag = std::numeric_limits<int>::max() - 1;
-    static constexpr std::size_t kLongestName = 4096; // longest name that is accepted [bytes]
 
     Cursor& cursor_;
     DeckBuilder& into_;

@@ -113,8 +113,8 @@ public:
         }
         put_attributes(head, attributes_);
         put_big(head, std::int32_t{11});
-        put_big(head, static_cast<std::int32_t>(arrays_.size() + 1));
-        std::size_t begin = head.size() + size_of_array("time_whole", 1, {});
+        put_big(head, static_cast<std::int32_t>(arrays_.size()));
+        std::size_t begin = head.size();
         for (const Array& array : arrays_)
             begin += size_of_array(array.name, array.dimensions.size(), array.attributes);
         std::vector<Section> sections(1);
@@ -126,7 +126,9 @@ public:
                                            "{} would have {} bytes, more than a netCDF array can hold",
                                            array.name, bytes)
                                        .remedy("write another format"));
-            put_array(head, array.name, array.dimensions, array.attributes, array.type, padded(bytes), begin);
+            // The size of an array that exists once for each time step is that of one step.
+            put_array(head, array.name, array.dimensions, array.attributes, array.type,
+                      padded(array.count == 0 ? array.record * bytes_of(array.type) : bytes), begin);
             begin += padded(bytes);
             sections.push_back({{},
                                 array.record == 0 ? 0 : array.count / array.record,
@@ -135,12 +137,9 @@ public:
             // zeros up to the next multiple of four, where the following array starts
             sections.push_back({std::string(padded(bytes) - bytes, '\0'), 0, 0, {}});
         }
-        put_array(head, "time_whole", {kTimeStep}, {}, NcType::real, 8, begin);
         sections.front().text = std::move(head);
         return sections;
     }
-
-    static constexpr int kTimeStep = 0; ///< the time step, a record dimension, comes first; it has no records
 
 private:
     struct Array {
@@ -260,6 +259,7 @@ public:
         std::size_t longest = kLeastName;
         for (const Block& block : *blocks_) longest = std::max(longest, block.name.size());
         for (const MeshView::Set& set : view_->sets) longest = std::max(longest, set.name.size());
+        // Without fields, the time step is a record dimension without records.
         const int time = nc_.dimension("time_step", view_->fields.empty() ? 0 : 1);
         name_ = nc_.dimension("len_name", longest + 1);
         nc_.dimension("len_string", kLeastName + 1);
@@ -279,6 +279,10 @@ public:
         add_sets("elem_sets", "els", "num_ele_els", "elem_els", cells_);
         add_sets("side_sets", "ss", "num_side_ss", "elem_ss", sides_);
         if (!view_->fields.empty()) add_fields(time);
+        nc_.array("time_whole", NcType::real, {time}, 1, [](std::size_t begin, std::size_t end, char* out) {
+            for (; begin < end; ++begin) out = io::put_big(out, 0.0);
+            return out;
+        });
         file_.sections = nc_.take();
         file_.sizes = Sizes::exact;
         return std::move(file_);
@@ -329,9 +333,9 @@ private:
             ids.insert(block.id);
             block.whole = wholes.try_emplace(block.region, block.id).first->second;
             const std::string base = block.region < 0 ? "skin" : view_->regions[index(block.region)].name;
-            block.name = base;
-            for (int i = 2; !block.name.empty() && !names.insert(block.name).second; ++i)
-                block.name = base + "_" + std::to_string(i);
+            if (!base.empty())
+                block.name = free_name(base, DeckFormat::exodus,
+                                       [&](const std::string& name) { return !names.insert(name).second; });
         }
     }
 
@@ -492,11 +496,6 @@ private:
             for (std::size_t c = 0; c < field.components; ++c)
                 names.push_back(field.components == 1 ? field.name : field.name + "_" + "xyz"[c]);
         const int count = nc_.dimension("num_elem_var", names.size());
-        const auto put_zero = [](std::size_t begin, std::size_t end, char* out) {
-            for (; begin < end; ++begin) out = io::put_big(out, 0.0);
-            return out;
-        };
-        nc_.array("time_whole", NcType::real, {time}, 1, put_zero);
         nc_.names("name_elem_var", {count, name_}, names);
         std::size_t variable = 0;
         for (std::size_t f = 0; f < view_->fields.size(); ++f)

@@ -7,8 +7,7 @@ namespace lacuna::io {
 
 std::optional<std::string> inflate(std::string_view bytes, std::uint64_t size)
 {
-    constexpr std::uint64_t kMostRatio = 1032; // highest compression ratio of deflate
-    if (size > kMostRatio * (bytes.size() + 64)) return {};
+    if (size > kDeflateRatio * (bytes.size() + 64)) return {};
     std::string plain(size, '\0');
     uLongf found = size;
     const int status = ::uncompress(reinterpret_cast<Bytef*>(plain.data()), &found,

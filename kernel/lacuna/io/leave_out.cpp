@@ -60,18 +60,11 @@ struct CardReader {
             else if (deck.format == DeckFormat::abaqus)
                 read_abaqus(text.text);
             else if (deck.format == DeckFormat::unv && text.place == DeckText::Place::tail)
-                each_line(text.text, [&](std::string_view line) { use_all(line); });
+                each_whole(text.text, use);
         }
     }
 
 private:
-    void use_all(std::string_view line) const
-    {
-        constexpr std::string_view kBetween = ", \t\r\n";
-        for (auto word = next_word(line, kBetween); !word.empty(); word = next_word(line, kBetween))
-            if (const auto tag = parse_integer<DeckTag>(word)) use(*tag);
-    }
-
     void read_nastran(std::string_view text) const
     {
         std::string card;
@@ -113,9 +106,9 @@ private:
                 std::string_view others = line;
                 const auto first = parse_integer<DeckTag>(next_field(others));
                 if (word == "ELEMENT")
-                    use_all(others);
+                    each_whole(others, use);
                 else if (word == "MPC")
-                    use_all(line);
+                    each_whole(line, use);
                 else if (first && word == "KINEMATICCOUPLING") // node, first and last direction
                     use(*first);
                 else if (first && (word == "BOUNDARY" || word == "CLOAD" || word == "TEMPERATURE"))

@@ -9,15 +9,17 @@
 //   options of reading, joining files          load_facets.cpp; units: units.cpp
 //   data of a mesh file, reading it            deck.h, deck.cpp
 //   common parts of readers                    deck_builder.cpp, cursor.cpp; of writers: deck_writer.cpp
-//   reader of a format                         <format>_reader.cpp, dyna.cpp, med.cpp
+//   reader of a format                         <format>_reader.cpp, med.cpp; libmedC: med_library.cpp
 //   cards and frames of Nastran                nastran_cards.cpp, nastran_frames.cpp
+//   cards, parts and instances of Abaqus       abaqus_cards.cpp, abaqus_parts.cpp
 //   faces of a mesh                            deck_facets.cpp
 //   options of writing                         mesh_file.cpp
-//   writer of a format                         <format>_writer.cpp, msh.cpp, vtk.cpp, dyna.cpp, med.cpp
+//   writer of a format                         <format>_writer.cpp, vtk.cpp, med.cpp, msh.cpp, msh_groups.cpp
 //   views of meshes and decks for writers      swept_view.cpp, deck_view.cpp; nodes: node_reader.cpp
 //   parallel writing; files that appear whole  sections.cpp, whole_file.cpp; folders: whole_folder.cpp
 //   facets of a sealed volume                  facets.cpp
-//   adding a mesh to a deck, to its sets       join_deck.cpp, mesh_deck.cpp, join_sets.cpp
+//   adding a mesh to a deck, to its sets       join_deck.cpp, mesh_deck.cpp, set_adder.cpp, join_sets.cpp
+//   new decks of swept meshes and tetrahedra   mixed_deck.cpp
 //   several decks; parts left out              merge_decks.cpp, leave_out.cpp
 //   parts for a solver                         partition.cpp; one as a view: view_piece.cpp
 //   values of cells; periodic nodes            cell_field.cpp, periodic_nodes.cpp

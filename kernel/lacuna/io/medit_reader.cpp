@@ -8,7 +8,7 @@ namespace lacuna::io {
 namespace {
 
 /// A section of a Medit file: a count, then records with a fixed number of values.
-struct Section {
+struct MeditSection {
     std::string_view name;
     int values;
     bool elements = false;
@@ -16,29 +16,29 @@ struct Section {
 };
 
 /// Solids and shells without middle nodes are read as they are; others are reduced to their corners.
-constexpr Section kSections[] = {{"Vertices", 4},
-                                 {"Triangles", 4, true, DeckShape::tri3},
-                                 {"TrianglesP2", 7, true, DeckShape::tri3},
-                                 {"Quadrilaterals", 5, true, DeckShape::quad4},
-                                 {"QuadrilateralsQ2", 10, true, DeckShape::quad4},
-                                 {"Tetrahedra", 5, true, DeckShape::tet4},
-                                 {"TetrahedraP2", 11, true, DeckShape::tet4},
-                                 {"Hexahedra", 9, true, DeckShape::hex8},
-                                 {"HexahedraQ2", 28, true, DeckShape::hex8},
-                                 {"Prisms", 7, true, DeckShape::wedge6},
-                                 {"Pyramids", 6, true, DeckShape::pyramid5},
-                                 {"Edges", 3},
-                                 {"EdgesP2", 4},
-                                 {"Corners", 1},
-                                 {"Ridges", 1},
-                                 {"RequiredVertices", 1},
-                                 {"RequiredEdges", 1},
-                                 {"RequiredTriangles", 1},
-                                 {"RequiredQuadrilaterals", 1},
-                                 {"Normals", 3},
-                                 {"NormalAtVertices", 2},
-                                 {"Tangents", 3},
-                                 {"TangentAtVertices", 2}};
+constexpr MeditSection kSections[] = {{"Vertices", 4},
+                                      {"Triangles", 4, true, DeckShape::tri3},
+                                      {"TrianglesP2", 7, true, DeckShape::tri3},
+                                      {"Quadrilaterals", 5, true, DeckShape::quad4},
+                                      {"QuadrilateralsQ2", 10, true, DeckShape::quad4},
+                                      {"Tetrahedra", 5, true, DeckShape::tet4},
+                                      {"TetrahedraP2", 11, true, DeckShape::tet4},
+                                      {"Hexahedra", 9, true, DeckShape::hex8},
+                                      {"HexahedraQ2", 28, true, DeckShape::hex8},
+                                      {"Prisms", 7, true, DeckShape::wedge6},
+                                      {"Pyramids", 6, true, DeckShape::pyramid5},
+                                      {"Edges", 3},
+                                      {"EdgesP2", 4},
+                                      {"Corners", 1},
+                                      {"Ridges", 1},
+                                      {"RequiredVertices", 1},
+                                      {"RequiredEdges", 1},
+                                      {"RequiredTriangles", 1},
+                                      {"RequiredQuadrilaterals", 1},
+                                      {"Normals", 3},
+                                      {"NormalAtVertices", 2},
+                                      {"Tangents", 3},
+                                      {"TangentAtVertices", 2}};
 
 class MeditReader {
 public:
@@ -51,7 +51,7 @@ public:
             cursor_.fail("expected MeshVersionFormatted, found {}", found(shown(word)));
         cursor_.integer();
         while (!(word = next_word()).empty() && !same_word(word, "End")) {
-            const auto section = find_word(kSections, word, &Section::name);
+            const auto section = find_word(kSections, word, &MeditSection::name);
             if (same_word(word, "Dimension")) {
                 if (cursor_.integer() != 3) cursor_.fail("expected Dimension 3");
             } else if (section == std::end(kSections)) {
@@ -75,7 +75,7 @@ private:
         return {};
     }
 
-    void read_section(const Section& section)
+    void read_section(const MeditSection& section)
     {
         const std::uint64_t count = cursor_.plausible(cursor_.size(), 1,
                                                       static_cast<std::uint64_t>(section.values));
@@ -98,7 +98,7 @@ private:
         }
     }
 
-    void read_element(const Section& section, std::size_t block)
+    void read_element(const MeditSection& section, std::size_t block)
     {
         std::array<Index, 8> corner{};
         const int corners = shape_info(section.shape).corners;

@@ -6,7 +6,6 @@
 #include <lacuna/core/shared/team.h>
 #include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/format_table.h>
-#include <lacuna/io/detail/orientation.h>
 #include <lacuna/io/detail/periodic_nodes.h>
 #include <lacuna/io/detail/swept_view.h>
 #include <lacuna/io/shared/units.h>

@@ -7,16 +7,13 @@
 #include <lacuna/io/detail/format_table.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/list_text.h>
 #include <lacuna/io/detail/cell_shapes.h>
-#include <lacuna/topology/shared/skin_groups.h>
+#include <lacuna/io/detail/msh.h>
 
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <map>
-#include <set>
 
 namespace lacuna::io {
 
@@ -26,146 +23,6 @@ using mesh::MeshView;
 using mesh::Numbers;
 using mesh::Ranges;
 using mesh::ViewParts;
-
-// ---- Physical groups
-
-constexpr std::size_t kLongestName = 127; // longest name that Gmsh allows
-
-/// Make a name safe for the format. The format has no escape for quotes, and ends a name at the end of its
-/// line.
-std::string printable(const std::string& name)
-{
-    std::string result;
-    for (const char c : name) {
-        if (c == '"')
-            result += '\'';
-        else if (static_cast<unsigned char>(c) < 32 || c == 127)
-            result += ' ';
-        else
-            result += c;
-    }
-    return result;
-}
-
-/// The first bytes of a name, without splitting a UTF-8 character.
-std::string shortened(const std::string& name, std::size_t bytes)
-{
-    if (name.size() <= bytes) return name;
-    while (bytes > 0 && (static_cast<unsigned char>(name[bytes]) & 0xC0) == 0x80) --bytes;
-    return name.substr(0, bytes);
-}
-
-struct PhysicalName {
-    int dimension;
-    int tag;
-    std::string name;
-};
-
-/// Assigns each group a tag. Tags are unique over all dimensions, since some readers ignore the dimension.
-class GroupTags {
-public:
-    /// Give a group the tag that it had in a file. If its name is `unnamed_group()`, the name is not written.
-    /// If two groups of one dimension had the same tag, the first keeps it. Call before any other tag is
-    /// assigned.
-    void keep(int dimension, const std::string& group, int tag)
-    {
-        if (tag < 1 || tag == std::numeric_limits<int>::max() || tags_.contains({dimension, group}) ||
-            !kept_.insert({dimension, tag}).second)
-            return;
-        tags_[{dimension, group}] = tag;
-        next_ = std::max(next_, tag + 1);
-        if (group != unnamed_group(tag)) names_.push_back({dimension, tag, unique_name(dimension, group)});
-    }
-    /// The tags of several groups, ascending.
-    std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups)
-    {
-        std::set<int> tags;
-        for (const std::string& group : groups) {
-            const auto [at, fresh] = tags_.try_emplace({dimension, group}, next_);
-            if (fresh) names_.push_back({dimension, next_++, unique_name(dimension, group)});
-            tags.insert(at->second);
-        }
-        return {tags.begin(), tags.end()};
-    }
-    std::vector<PhysicalName> take() { return std::move(names_); }
-
-private:
-    /// A name that no other group has: shortening may make names equal.
-    std::string unique_name(int dimension, const std::string& group)
-    {
-        const std::string whole = printable(group);
-        std::string name = shortened(whole, kLongestName);
-        for (int i = 2; !written_.insert({dimension, name}).second; ++i) {
-            const std::string mark = "~" + std::to_string(i);
-            name = shortened(whole, kLongestName - mark.size()) + mark;
-        }
-        return name;
-    }
-
-    std::map<std::pair<int, std::string>, int> tags_;
-    std::set<std::pair<int, std::string>> written_;
-    std::vector<PhysicalName> names_;
-    std::set<std::pair<int, int>> kept_; ///< dimension and tag
-    int next_ = 1;
-};
-
-// ---- Numbers as text or binary
-
-struct MshNumbers {
-    bool binary;
-
-    template <class Value>
-    [[nodiscard]] char* add(char* out, Value value) const
-    {
-        if (binary) return put(out, value);
-        out = put_text(out, value);
-        *out++ = ' ';
-        return out;
-    }
-    /// End a line that contains at least one number.
-    [[nodiscard]] char* end(char* out) const
-    {
-        if (!binary) out[-1] = '\n';
-        return out;
-    }
-    template <class... Value>
-    [[nodiscard]] std::string line(Value... values) const
-    {
-        std::string text(sizeof...(values) * kNumberBytes + 1, '\0');
-        char* out = text.data();
-        ((out = add(out, values)), ...);
-        text.resize(static_cast<std::size_t>(end(out) - text.data()));
-        return text;
-    }
-    /// Append a box and lists of tags to the last line of `text`. Each list follows its length.
-    void add_lists(std::string& text, const Eigen::AlignedBox3d& box,
-                   std::initializer_list<std::vector<int>> lists) const
-    {
-        const auto go_on = [&] {
-            if (!binary) text.back() = ' ';
-        };
-        go_on();
-        const Vec3 low = box.min(), high = box.max();
-        text += line(low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
-        for (const std::vector<int>& list : lists) {
-            go_on();
-            text += line(size_of(list.size()));
-            for (const int tag : list) {
-                go_on();
-                text += line(tag);
-            }
-        }
-    }
-    [[nodiscard]] std::size_t room(std::size_t numbers, std::size_t bytes) const
-    {
-        return binary ? bytes : numbers * kNumberBytes + 1;
-    }
-    /// Separates a block of numbers from the end of its section.
-    [[nodiscard]] std::string gap() const { return binary ? "\n" : ""; }
-    static std::uint64_t size_of(std::size_t count) { return count; }
-};
-
-// ---- Content of a file
 
 /// Elements of one entity, part and block.
 struct Row {
@@ -182,6 +39,74 @@ struct PartEntity {
     int parent; ///< tag of the whole entity, of the same dimension
     Index part;
 };
+
+/// The link between two surfaces. In version 2.2 it is text in binary files too.
+std::string periodic_link(const MeshView& view, const MshNumbers& numbers, bool old,
+                          const Eigen::Isometry3d& onto, std::size_t entity, std::size_t master,
+                          const std::map<Index, Index>& nodes)
+{
+    const MshNumbers to{numbers.binary && !old};
+    std::string text = to.line(2, view.entities[entity].tag, view.entities[master].tag) +
+                       (old ? "Affine" : to.line(MshNumbers::size_of(16)));
+    if (!to.binary && !old) text.back() = ' ';
+    for (Eigen::Index i = 0; i < 4; ++i)
+        for (Eigen::Index j = 0; j < 4; ++j) {
+            if (!to.binary) text += ' ';
+            text += to.line(onto.matrix()(i, j));
+            if (!to.binary) text.pop_back();
+        }
+    if (!to.binary) text += '\n';
+    text += to.line(MshNumbers::size_of(nodes.size()));
+    for (const auto& [slave, node] : nodes)
+        text += to.line(static_cast<std::uint64_t>(view.point_tags[index(slave)]),
+                        static_cast<std::uint64_t>(view.point_tags[index(node)]));
+    return text;
+}
+
+/// $Periodic of each pair of surfaces: nodes of the second one and their images on the first. Empty: there
+/// are none. @param old  the version is 2.2
+std::string msh_periodic(const MeshView& view, const MshNumbers& numbers, bool old)
+{
+    std::string all;
+    std::size_t links = 0;
+    for (const MeshView::Periodic& own : view.periodic) {
+        std::map<Index, Index> from; // for each node of the second side, its partner on the first
+        for (const auto& [a, b] : own.nodes.pairs) from.emplace(b, a);
+        // The surface of each quad, by the quad's sorted nodes; and for each quad on the second side its
+        // surface and nodes.
+        std::map<std::vector<Index>, std::size_t> entity_of;
+        std::vector<std::pair<std::size_t, std::vector<Index>>> sides;
+        for (const MeshView::Block& block : view.blocks) {
+            if (shape_info(block.shape).dimension != 2) continue;
+            mesh::each_run(block.entities, 0, block.count, [&](std::size_t first, std::size_t last, Index e) {
+                block.each_cell(first, last, [&](std::size_t, std::span<const Index> nodes) {
+                    std::vector<Index> key(nodes.begin(), nodes.end());
+                    if (std::ranges::all_of(key, [&](Index n) { return from.contains(n); }))
+                        sides.emplace_back(index(e), key);
+                    std::ranges::sort(key);
+                    entity_of.emplace(std::move(key), index(e));
+                });
+            });
+        }
+        std::map<std::pair<std::size_t, std::size_t>, std::map<Index, Index>> pairs; // pairs of nodes, by
+                                                                                     // both surfaces
+        for (const auto& [entity, nodes] : sides) {
+            std::vector<Index> key;
+            for (const Index n : nodes) key.push_back(from.at(n));
+            std::ranges::sort(key);
+            const auto master = entity_of.find(key);
+            if (master == entity_of.end()) continue;
+            for (const Index n : nodes) pairs[{entity, master->second}][n] = from.at(n);
+        }
+        for (const auto& [entities, nodes] : pairs) {
+            all += periodic_link(view, numbers, old, own.nodes.onto, entities.first, entities.second, nodes);
+            ++links;
+        }
+    }
+    if (links == 0) return {};
+    return "$Periodic\n" + (old ? std::to_string(links) + "\n" : numbers.line(MshNumbers::size_of(links))) +
+           all + (old ? "" : numbers.gap()) + "$EndPeriodic\n";
+}
 
 class MshFile {
 public:
@@ -201,7 +126,8 @@ public:
         if (options.all_groups && !can_overlap)
             file_.notes.emplace_back("MSH 2.2 holds one group per element, so groups = \"all\" is ignored; "
                                      "version = 4.1 holds all");
-        name_groups(options.all_groups && can_overlap);
+        groups_ = msh_groups(*view, used_, options.all_groups && can_overlap);
+        file_.changed = groups_.changed;
         if (view->point_tags.given() && view->points > 0)
             nodes_ = view->point_tags.bounds(view->points);
         else if (view->points > 0)
@@ -254,7 +180,7 @@ public:
         text_ = numbers_.gap() + "$EndNodes\n$Elements\n" + std::to_string(view_->cells()) + "\n";
         for (const Row& row : rows_) {
             const int type = words_of(view_->blocks[row.block].shape).gmsh;
-            const std::vector<int>& physical = physical_[row.entity];
+            const std::vector<int>& physical = groups_.tags[row.entity];
             const int group = physical.empty() ? 0 : physical.front();
             const int entity = view_->entities[row.entity].tag;
             if (numbers_.binary) text_ += numbers_.line(type, static_cast<int>(row.cells.count()), 2);
@@ -328,49 +254,14 @@ private:
         }
     }
 
-    /// Assign physical groups to entities. @param all  each entity gets all its groups, not only one
-    void name_groups(bool all)
-    {
-        std::set<std::string> lost;
-        GroupTags tags;
-        for (const MeshView::GroupTag& kept : view_->group_tags)
-            tags.keep(kept.dimension, kept.group, kept.tag);
-        std::set<std::pair<int, int>> used; // dimension and tag
-        for (std::size_t e = 0; e < used_.size(); ++e) {
-            const MeshView::Entity& entity = view_->entities[e];
-            std::vector<std::string> groups = entity.groups;
-            if (groups.empty() && !view_->unnamed.empty()) groups = {view_->unnamed};
-            if (!all && groups.size() > 1) {
-                groups = {entity.groups[entity.main]};
-                lost.insert(entity.groups.begin(), entity.groups.end());
-                lost.erase(groups.front());
-            }
-            physical_.push_back(used_[e] != 0 ? tags.tags_of(entity.dimension, groups) : std::vector<int>());
-            for (const int tag : physical_.back()) used.emplace(entity.dimension, tag);
-        }
-        names_ = tags.take();
-        std::erase_if(names_, [&](const PhysicalName& name) {
-            return !used.contains({name.dimension, name.tag});
-        });
-        std::erase_if(lost, [](const std::string& name) { // default groups of a swept mesh
-            return name == "volume" || topology::is_role_group(name) ||
-                   topology::is_role_group(name.substr(name.find(':') + 1));
-        });
-        if (view_->source.empty() || lost.empty()) return;
-        file_.changed = formatted(
-            "each element is written in one group only: {} {} elements that are also in "
-            "others; groups = \"all\" keeps them",
-            full_list(lost, std::identity()), lost.size() > 1 ? "lack" : "lacks");
-    }
-
     void open(const char* version)
     {
         text_ = std::string("$MeshFormat\n") + version + (numbers_.binary ? " 1 8\n" : " 0 8\n");
         if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // shows readers the byte order
         text_ += "$EndMeshFormat\n";
         if (!unit_.empty()) text_ += "$Comments\nlengths are in " + unit_ + "\n$EndComments\n";
-        text_ += "$PhysicalNames\n" + std::to_string(names_.size()) + "\n";
-        for (const PhysicalName& name : names_)
+        text_ += "$PhysicalNames\n" + std::to_string(groups_.names.size()) + "\n";
+        for (const PhysicalName& name : groups_.names)
             text_ += formatted("{} {} \"{}\"\n", name.dimension, name.tag, name.name);
         text_ += "$EndPhysicalNames\n";
     }
@@ -390,7 +281,7 @@ private:
             each_entity(dimension, [&](std::size_t e, const MeshView::Entity& entity) {
                 ++count[index(dimension)];
                 all += numbers_.line(entity.tag);
-                numbers_.add_lists(all, boxes_[e], {physical_[e], entity.bounds});
+                numbers_.add_lists(all, boxes_[e], {groups_.tags[e], entity.bounds});
             });
         text_ += "$Entities\n" +
                  numbers_.line(size_of(count[0]), size_of(count[1]), size_of(count[2]), size_of(count[3])) +
@@ -422,7 +313,7 @@ private:
                 std::string& text = all[index(of.dimension)];
                 ++count[index(of.dimension)];
                 text += numbers_.line(tag, of.dimension, of.tag, size_of(std::size_t(1)), row.part + 1);
-                numbers_.add_lists(text, boxes_[row.entity], {physical_[row.entity], {}});
+                numbers_.add_lists(text, boxes_[row.entity], {groups_.tags[row.entity], {}});
             }
             row.tag = tag;
         }
@@ -598,75 +489,6 @@ private:
         text_ += numbers_.gap() + "$EndGhostElements\n";
     }
 
-    /// $Periodic of each pair of surfaces: nodes of the second one and their images on the first.
-    void add_periodic()
-    {
-        std::string all;
-        std::size_t links = 0;
-        for (const MeshView::Periodic& own : view_->periodic) {
-            std::map<Index, Index> from; // for each node of the second side, its partner on the first
-            for (const auto& [a, b] : own.nodes.pairs) from.emplace(b, a);
-            // The surface of each quad, by the quad's sorted nodes; and for each quad on the second side its
-            // surface and nodes.
-            std::map<std::vector<Index>, std::size_t> entity_of;
-            std::vector<std::pair<std::size_t, std::vector<Index>>> sides;
-            for (const MeshView::Block& block : view_->blocks) {
-                if (shape_info(block.shape).dimension != 2) continue;
-                mesh::each_run(
-                    block.entities, 0, block.count, [&](std::size_t first, std::size_t last, Index e) {
-                        block.each_cell(first, last, [&](std::size_t, std::span<const Index> nodes) {
-                            std::vector<Index> key(nodes.begin(), nodes.end());
-                            if (std::ranges::all_of(key, [&](Index n) { return from.contains(n); }))
-                                sides.emplace_back(index(e), key);
-                            std::ranges::sort(key);
-                            entity_of.emplace(std::move(key), index(e));
-                        });
-                    });
-            }
-            std::map<std::pair<std::size_t, std::size_t>, std::map<Index, Index>> pairs; // pairs of nodes, by
-                                                                                         // both surfaces
-            for (const auto& [entity, nodes] : sides) {
-                std::vector<Index> key;
-                for (const Index n : nodes) key.push_back(from.at(n));
-                std::ranges::sort(key);
-                const auto master = entity_of.find(key);
-                if (master == entity_of.end()) continue;
-                for (const Index n : nodes) pairs[{entity, master->second}][n] = from.at(n);
-            }
-            for (const auto& [entities, nodes] : pairs) {
-                all += periodic_link(own.nodes.onto, entities.first, entities.second, nodes);
-                ++links;
-            }
-        }
-        if (links == 0) return;
-        text_ += "$Periodic\n" + (old_ ? std::to_string(links) + "\n" : numbers_.line(size_of(links))) + all +
-                 (old_ ? "" : numbers_.gap()) + "$EndPeriodic\n";
-    }
-    /// The link between two surfaces. In version 2.2 it is text in binary files too.
-    [[nodiscard]] std::string periodic_link(const Eigen::Isometry3d& onto, std::size_t entity,
-                                            std::size_t master, const std::map<Index, Index>& nodes) const
-    {
-        const MshNumbers to{numbers_.binary && !old_};
-        std::string text = to.line(2, view_->entities[entity].tag, view_->entities[master].tag);
-        if (old_)
-            text += "Affine";
-        else
-            text += to.line(size_of(std::size_t(16)));
-        if (!to.binary && !old_) text.back() = ' ';
-        for (Eigen::Index i = 0; i < 4; ++i)
-            for (Eigen::Index j = 0; j < 4; ++j) {
-                if (!to.binary) text += ' ';
-                text += to.line(onto.matrix()(i, j));
-                if (!to.binary) text.pop_back();
-            }
-        if (!to.binary) text += '\n';
-        text += to.line(size_of(nodes.size()));
-        for (const auto& [slave, node] : nodes)
-            text += to.line(size_of(view_->point_tags[index(slave)]),
-                            size_of(view_->point_tags[index(node)]));
-        return text;
-    }
-
     /// $ElementData of each field. Values cover all elements, since meshio rejects a field that lacks some.
     void add_fields()
     {
@@ -696,7 +518,7 @@ private:
     }
     DeckFile take()
     {
-        add_periodic();
+        text_ += msh_periodic(*view_, numbers_, old_);
         add_fields();
         add(0, 0, {});
         file_.sizes = numbers_.binary ? Sizes::exact : Sizes::varying;
@@ -712,10 +534,9 @@ private:
     std::vector<char> used_;    ///< whether an entity has elements
     std::vector<Numbers> tags_; ///< element numbers, for each block
     std::pair<std::int64_t, std::int64_t> elements_,
-        nodes_;                              ///< lowest and highest number
-    std::vector<std::vector<int>> physical_; ///< group tags of each entity, ascending
+        nodes_; ///< lowest and highest number
+    MshGroups groups_;
     std::vector<Eigen::AlignedBox3d> boxes_; ///< one for each entity
-    std::vector<PhysicalName> names_;
     std::vector<PartEntity> entities_;
     std::string text_; ///< text that precedes the next section
     DeckFile file_;

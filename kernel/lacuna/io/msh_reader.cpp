@@ -32,9 +32,6 @@ constexpr ElementType kFurtherTypes[] = {
     {38, 2, 36, quad4},       {29, 3, 20, tet4},        {30, 3, 35, tet4},        {31, 3, 56, tet4},
     {92, 3, 64, hex8},        {93, 3, 125, hex8},       {90, 3, 40, wedge6}};
 
-// Numbers in binary files have the byte order of this machine; others are refused.
-constexpr bool kBig = std::endian::native == std::endian::big;
-
 ElementType type_of(const Cursor& cursor, int type)
 {
     if (const auto shape = shape_numbered(&ShapeWords::gmsh, type))
@@ -76,7 +73,7 @@ private:
         else if (name == "PhysicalNames")
             read_names();
         else if (name == "Entities" && version_ == 4)
-            read_entities();
+            read_entities(false);
         else if (name == "PartitionedEntities" && version_ == 4 && !first_of_4_)
             read_parts();
         else if (name == "Nodes")
@@ -107,7 +104,7 @@ private:
         cursor_.line();
         if (binary == 1) {
             cursor_.coding = std::endian::native == std::endian::little ? Coding::little : Coding::big;
-            if (cursor_.raw_integer() != 1)
+            if (cursor_.integer() != 1)
                 cursor_.fail(Message(kUnreadable, "the file has the byte order of another machine")
                                  .remedy("save the mesh as text"));
         } else if (binary != 0) {
@@ -143,8 +140,6 @@ private:
         if (!value) cursor_.fail("expected a small whole number, found {}", found(shown(word)));
         return *value;
     }
-
-    void read_entities() { read_entities(false); }
 
     /// Read which entity each partitioned entity is a part of, so that a partitioned mesh is read as a whole
     /// one.
@@ -283,37 +278,11 @@ private:
         cursor_.line();
         if (count < 0) cursor_.fail("the number of nodes is negative");
         begin_nodes(static_cast<std::uint64_t>(count), 28, 4);
-        if (cursor_.coding != Coding::text) {
-            take_nodes_2(static_cast<std::size_t>(count));
-        } else {
-            for (std::int64_t i = 0; i < count; ++i) {
-                add_tag(node_tag());
-                into_.points().push_back(cursor_.point());
-            }
+        for (std::int64_t i = 0; i < count; ++i) {
+            add_tag(node_tag());
+            into_.points().push_back(cursor_.point());
         }
         end_nodes(static_cast<std::uint64_t>(count));
-    }
-
-    /// Read tags and points, which alternate, from binary data.
-    void take_nodes_2(std::size_t count)
-    {
-        constexpr std::size_t kRecord = 4 + sizeof(Vec3);
-        std::vector<DeckTag>& tags = into_.deck().point_tags;
-        std::vector<Vec3>& points = into_.points();
-        tags.resize(count);
-        points.resize(count);
-        const std::string_view bytes = cursor_.bytes(kRecord * count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const char* const record = bytes.data() + i * kRecord;
-            const int tag = from_bytes<int>(record, kBig);
-            tags[i] = tag;
-            std::memcpy(static_cast<void*>(points.data() + i), record + 4, sizeof(Vec3));
-            if (tag >= 0 && points[i].allFinite()) continue;
-            cursor_ = cursor_.part(bytes.substr(i * kRecord)); // the next calls report which number is
-                                                               // invalid
-            node_tag();
-            cursor_.point();
-        }
     }
 
     /// Choose the block for the announced cells.
@@ -335,6 +304,7 @@ private:
         const Place place{type.dimension, entity, physical};
         if (region_ >= 0 && place == last_place_) return;
         last_place_ = place;
+        if (physical != 0) members_[{type.dimension, physical}].insert(entity);
         const auto [found, fresh] = regions_.try_emplace(place, into_.deck().regions.size());
         if (fresh) {
             into_.add_region(entity, "");
@@ -343,20 +313,18 @@ private:
         region_ = static_cast<Index>(found->second);
     }
 
-    /// Read binary cells. Each consists of its tag, `skipped` numbers, and its nodes, all of type `Tag`.
+    /// Read binary cells. Each consists of its tag and its nodes, all of type `Tag`.
     template <class Tag>
-    void take_cells(const ElementType& type, std::size_t count, std::size_t skipped)
+    void take_cells(const ElementType& type, std::size_t count)
     {
-        const std::size_t numbers = 1 + skipped + static_cast<std::size_t>(type.nodes);
+        const std::size_t numbers = 1 + static_cast<std::size_t>(type.nodes);
         const std::string_view bytes = cursor_.bytes(count * numbers * sizeof(Tag));
-        if (!type.is_kept) {
-            return into_.pass_over(name_of(type), count);
-        }
+        if (!type.is_kept) return into_.pass_over(name_of(type), count);
         const auto kept = static_cast<std::size_t>(shape_info(type.shape).nodes);
         const DeckBuilder::Room room = into_.add_elements(block_, count, region_);
         std::array<std::size_t, 27> from{};
         const auto places = node_places(NodeOrder::gmsh, type.shape);
-        for (std::size_t k = 0; k < kept; ++k) from[k] = 1 + skipped + places[k];
+        for (std::size_t k = 0; k < kept; ++k) from[k] = 1 + places[k];
         const char* at = bytes.data();
         Index* node = room.nodes;
         for (std::size_t i = 0; i < count; ++i, at += numbers * sizeof(Tag)) {
@@ -370,7 +338,9 @@ private:
     template <class Tag>
     DeckTag tag_at(const char* at, const char* whose) const
     {
-        const auto tag = static_cast<DeckTag>(from_bytes<Tag>(at, kBig));
+        Tag own; // in the byte order of this machine; files in another order are refused
+        std::memcpy(&own, at, sizeof own);
+        const auto tag = static_cast<DeckTag>(own);
         if (tag < 0) cursor_.fail("{} tag is too large or negative", whose);
         return tag;
     }
@@ -418,10 +388,7 @@ private:
             expect_cells(type, count);
             if (type.is_kept) enter(type, entity, 0);
             if (cursor_.coding != Coding::text) {
-                if (first_of_4_)
-                    take_cells<int>(type, count, 0);
-                else
-                    take_cells<std::int64_t>(type, count, 0);
+                first_of_4_ ? take_cells<int>(type, count) : take_cells<std::int64_t>(type, count);
                 continue;
             }
             const auto next_tag = [&] { return first_of_4_ ? node_tag() : cursor_.size(); };
@@ -434,8 +401,7 @@ private:
 
     void read_cell_2(const ElementType& type, std::uint64_t tag, int tags)
     {
-        int physical = 0;
-        int entity = 0;
+        int physical = 0, entity = 0;
         for (int k = 0; k < tags; ++k) {
             if (k == 0)
                 physical = group_tag();
@@ -463,30 +429,8 @@ private:
 
     void add_cell(const ElementType& type, std::uint64_t tag, int physical, int entity)
     {
-        if (physical != 0) members_[{type.dimension, physical}].insert(entity);
         if (type.is_kept) enter(type, entity, physical);
         take_cell(type, tag, [&] { return node_tag(); });
-    }
-
-    /// Read binary cells. Consecutive cells with the same physical group and entity are read together.
-    void take_cells_2(const ElementType& type, std::size_t count, std::size_t tags)
-    {
-        const std::size_t record = 4 * (1 + tags + static_cast<std::size_t>(type.nodes));
-        const std::string_view bytes = cursor_.rest();
-        cursor_.part(bytes).bytes(count * record); // fails if the file is cut off
-        for (std::size_t i = 0; i < count;) {
-            const char* const head = bytes.data() + i * record + 4;
-            std::size_t same = 1;
-            while (i + same < count && std::memcmp(head, head + same * record, 4 * tags) == 0) ++same;
-            const int group = tags > 0 ? from_bytes<int>(head, kBig) : 0;
-            const int entity = tags > 1 ? from_bytes<int>(head + 4, kBig) : 0;
-            if (group == std::numeric_limits<int>::min()) cursor_.fail("a group's tag is too large");
-            const int physical = std::abs(group);
-            if (physical != 0) members_[{type.dimension, physical}].insert(entity);
-            if (type.is_kept) enter(type, entity, physical);
-            take_cells<int>(type, same, tags);
-            i += same;
-        }
     }
 
     void read_elements_2()
@@ -506,10 +450,7 @@ private:
             const auto values = static_cast<std::uint64_t>(type.nodes) + static_cast<std::uint64_t>(tags);
             cursor_.plausible(static_cast<std::uint64_t>(count), 4 * (values + 1), values);
             expect_cells(type, count > 1 ? static_cast<std::uint64_t>(count) : 0);
-            if (text)
-                read_cell_2(type, tag, tags);
-            else
-                take_cells_2(type, static_cast<std::size_t>(count), static_cast<std::size_t>(tags));
+            for (int i = 0; i < count; ++i) read_cell_2(type, text ? tag : node_tag(), tags);
             done += static_cast<std::uint64_t>(count);
         }
     }

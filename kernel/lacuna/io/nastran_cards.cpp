@@ -8,10 +8,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kField = 8;       // characters of a small field; the first and last field of a line are
-                                        // always small
-constexpr std::size_t kLargeField = 16; // characters
-constexpr std::size_t kFields = 8;      // data fields of a line; large ones take two lines
+constexpr std::size_t kFields = kCardColumns / kField - 2; // data fields of a line; large ones take two lines
 /// Number of cards that replication may create, in addition to one card for each sixteen bytes of the file.
 /// Without a limit, a wrong count would fill the memory. Not measured.
 constexpr std::size_t kReplicas = 10'000;
@@ -132,7 +129,7 @@ void BulkData::read(const std::function<CardUse(std::string_view)>& use,
 {
     use_ = use;
     take_ = take;
-    read_file(main_, 0, 0);
+    read_file(main_, 0);
     end_card();
     finish();
 }
@@ -149,7 +146,7 @@ std::vector<DeckText> BulkData::texts() const
     return all;
 }
 
-void BulkData::read_file(Cursor& cursor, std::uint64_t file, int depth)
+void BulkData::read_file(Cursor& cursor, std::uint64_t file)
 {
     const auto keep = [](std::string& text, std::string_view raw) {
         text += raw;
@@ -163,7 +160,7 @@ void BulkData::read_file(Cursor& cursor, std::uint64_t file, int depth)
         if (words.empty()) {
             keep(bulk_ ? kept_ : outside, raw);
         } else if (begins_with(words, "INCLUDE")) {
-            include(cursor, words.substr(7), file, depth);
+            include(cursor, words.substr(7), file);
         } else if (is_bulk_line(words, "BEGIN")) {
             end_card();
             bulk_ = true;
@@ -186,7 +183,7 @@ void BulkData::read_file(Cursor& cursor, std::uint64_t file, int depth)
     }
 }
 
-void BulkData::include(Cursor& cursor, std::string_view rest, std::uint64_t from, int depth)
+void BulkData::include(Cursor& cursor, std::string_view rest, std::uint64_t from)
 {
     end_card();
     const DeckPlace place{&cursor, cursor.last(), from};
@@ -200,8 +197,8 @@ void BulkData::include(Cursor& cursor, std::string_view rest, std::uint64_t from
         }
         name = name.substr(1, name.find(quote, 1) - 1);
     }
-    Cursor& included = files_.include(name, place, depth);
-    read_file(included, files_.last(), depth + 1);
+    Cursor& included = files_.include(name, place);
+    read_file(included, files_.last());
     end_card();
 }
 
@@ -232,12 +229,11 @@ void BulkData::free_fields(const Cursor& cursor, std::string_view line)
 /// Split a line in small or large format; a tab skips to the next column of eight.
 void BulkData::fixed_fields(std::string_view line)
 {
-    constexpr std::size_t kColumns = (kFields + 2) * kField; // columns further right are ignored
-    line = line.substr(0, kColumns);
+    line = line.substr(0, kCardColumns);
     if (line.find('\t') != std::string_view::npos) {
         std::string& wide = expanded_.emplace_back();
         for (const char c : line) {
-            if (wide.size() >= kColumns) break;
+            if (wide.size() >= kCardColumns) break;
             if (c == '\t')
                 wide.append(kField - wide.size() % kField, ' ');
             else
@@ -250,9 +246,9 @@ void BulkData::fixed_fields(std::string_view line)
     };
     line_.push_back(field(0, kField));
     const std::size_t width = is_large(line_[0]) ? kLargeField : kField;
-    for (std::size_t begin = kField; begin < kColumns - kField; begin += width)
+    for (std::size_t begin = kField; begin < kCardColumns - kField; begin += width)
         line_.push_back(field(begin, width));
-    line_.push_back(field(kColumns - kField, kField));
+    line_.push_back(field(kCardColumns - kField, kField));
 }
 
 void BulkData::read_line(const Cursor& cursor, std::uint64_t file, std::string_view line,

@@ -20,9 +20,6 @@ namespace {
 
 using mesh::MeshView;
 
-constexpr std::size_t kSmall = 8, kLarge = 16; // characters of a field
-constexpr std::size_t kNumber = 20;            // maximum length of a tag [characters]
-
 /// Collects the fields of a card and writes it.
 class CardWriter {
 public:
@@ -32,14 +29,14 @@ public:
     {
         char* const at = digits_.data() + used_;
         char* const end = put_text(at, number);
-        used_ += kNumber;
+        used_ += kNumberBytes;
         fields_.emplace_back(at, static_cast<std::size_t>(end - at));
     }
     void add_real(double value)
     {
         char* const at = digits_.data() + used_;
-        char* const end = put_real(at, value, kLarge, RealForm::nastran);
-        used_ += kNumber;
+        char* const end = put_real(at, value, kLargeField, RealForm::nastran);
+        used_ += kNumberBytes;
         fields_.emplace_back(at, static_cast<std::size_t>(end - at));
     }
     /// Add several fields, given as a text with commas between them.
@@ -54,22 +51,22 @@ public:
     char* put(char* out, std::string_view name, bool large = false)
     {
         while (!fields_.empty() && fields_.back().empty()) fields_.pop_back();
-        std::size_t longest = large ? kLarge : 0;
+        std::size_t longest = large ? kLargeField : 0;
         for (const std::string_view field : fields_) longest = std::max(longest, field.size());
-        if (longest > kLarge) return put_free(out, name);
-        const std::size_t width = longest > kSmall ? kLarge : kSmall;
-        const std::size_t per_line = 8 * kSmall / width;
-        const std::string_view next = width == kSmall ? "+" : "*";
+        if (longest > kLargeField) return put_free(out, name);
+        const std::size_t width = longest > kField ? kLargeField : kField;
+        const std::size_t per_line = 8 * kField / width;
+        const std::string_view next = width == kField ? "+" : "*";
         out = put_words(out, name);
-        if (width == kLarge) *out++ = '*';
-        std::size_t column = name.size() + (width == kLarge ? 1 : 0);
+        if (width == kLargeField) *out++ = '*';
+        std::size_t column = name.size() + (width == kLargeField ? 1 : 0);
         for (std::size_t f = 0; f < fields_.size(); ++f) {
-            std::size_t start = kSmall + f % per_line * width;
+            std::size_t start = kField + f % per_line * width;
             if (f > 0 && f % per_line == 0) {
                 *out++ = '\n';
                 out = put_words(out, next);
                 column = next.size();
-                start = kSmall;
+                start = kField;
             }
             start += width - fields_[f].size();
             for (; column < start; ++column) *out++ = ' ';
@@ -82,7 +79,7 @@ public:
     /// Upper bound on the bytes of a card with this number of fields, none longer than `longest`.
     static std::size_t room(std::size_t fields, std::size_t longest)
     {
-        return (std::max(longest, kLarge) + 4) * (fields + 8) + 32;
+        return (std::max(longest, kLargeField) + 4) * (fields + 8) + 32;
     }
 
 private:
@@ -99,7 +96,7 @@ private:
     }
 
     std::vector<std::string_view> fields_;
-    std::array<char, 32 * kNumber> digits_{}; ///< digits of the numbers of a card; a CHEXA has 22
+    std::array<char, 32 * kNumberBytes> digits_{}; ///< digits of the numbers of a card; a CHEXA has 22
     std::size_t used_ = 0;
 };
 
@@ -126,7 +123,8 @@ void add_nodes(const View& view, DeckFile& file)
         card.add_text(text_of(more, p));
         return card.put(out, "GRID", true);
     };
-    file.sections.push_back(section_of_points({}, view, CardWriter::room(5, kLarge) + room_of(more), put));
+    file.sections.push_back(
+        section_of_points({}, view, CardWriter::room(5, kLargeField) + room_of(more), put));
 }
 
 void add_elements(const View& view, std::size_t b, DeckFile& file)
@@ -158,7 +156,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
         return card.put(out, name);
     };
     file.sections.push_back(
-        section_of_cells(view, b, CardWriter::room(nodes + 2, kNumber) + room_of(more), put));
+        section_of_cells(view, b, CardWriter::room(nodes + 2, kNumberBytes) + room_of(more), put));
 }
 
 /// A SET1 card. The card does not state whether its members are nodes or elements, so a comment does.
@@ -199,7 +197,7 @@ std::string property_text(const MeshView& view)
     return text;
 }
 
-std::string real(double value) { return real_text(value, kLarge, RealForm::nastran); }
+std::string real(double value) { return real_text(value, kLargeField, RealForm::nastran); }
 
 /// Multipoint constraints of periodic faces, all in set 1, with a GRID for each reference node.
 std::string periodic_text(const MeshView& view)

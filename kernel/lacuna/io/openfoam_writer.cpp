@@ -330,12 +330,7 @@ void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunCont
     const PolyMesh mesh(view, context);
     for (const std::string& note : mesh.notes)
         log_line(context, formatted("note: {}: {}", path.text(), note));
-    double written = 0; // share of the folder
-    const auto write = [&](const char* name, const std::vector<Section>& sections) {
-        constexpr int kFiles = 6; // at most
-        const double before = std::exchange(written, written + 1.0 / kFiles);
-        write_file(folder.file(name), sections, Sizes::varying, part_of(context, before, written));
-    };
+    std::vector<std::pair<const char*, std::vector<Section>>> files;
     const auto put_points = [&](std::size_t begin, std::size_t end, char* out) {
         mesh.points.each(begin, end, [&](std::size_t first, std::size_t last) {
             view.each_point(first, last, [&](std::span<const Vec3> points) {
@@ -344,20 +339,21 @@ void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunCont
         });
         return out;
     };
-    write("points", list(head_of("vectorField", "points"), mesh.points.count(), 3, put_points));
-    write("faces",
-          list(head_of("faceList", "faces"), mesh.faces.size(), 5, each([&](std::size_t i, char* out) {
-                   const Quad& face = mesh.faces[i];
-                   const std::size_t corners = face[3] < 0 ? 3 : 4;
-                   *out++ = static_cast<char>('0' + corners);
-                   return put_row(out, std::span(face).first(corners));
-               })));
+    files.emplace_back("points", list(head_of("vectorField", "points"), mesh.points.count(), 3, put_points));
+    files.emplace_back(
+        "faces", list(head_of("faceList", "faces"), mesh.faces.size(), 5, each([&](std::size_t i, char* out) {
+                          const Quad& face = mesh.faces[i];
+                          const std::size_t corners = face[3] < 0 ? 3 : 4;
+                          *out++ = static_cast<char>('0' + corners);
+                          return put_row(out, std::span(face).first(corners));
+                      })));
     const std::string note = formatted("nPoints:{} nCells:{} nFaces:{} nInternalFaces:{}",
                                        mesh.points.count(), mesh.cells, mesh.faces.size(),
                                        mesh.neighbours.size());
     const auto labels = [&](const char* name, const std::vector<Index>& of) {
-        write(name, list(head_of("labelList", name, note), of.size(), 1,
-                         each([&](std::size_t i, char* out) { return put_label(out, of[i]); })));
+        files.emplace_back(
+            name, list(head_of("labelList", name, note), of.size(), 1,
+                       each([&own = of](std::size_t i, char* out) { return put_label(out, own[i]); })));
     };
     labels("owner", mesh.owners);
     labels("neighbour", mesh.neighbours);
@@ -367,8 +363,15 @@ void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunCont
         boundary += formatted("    {}\n    {{\n        type            patch;\n        nFaces          {};\n "
                               "       startFace       {};\n    }}\n",
                               patch.name, patch.count, patch.first);
-    write("boundary", {{boundary + ")\n", 0, 0, {}}});
-    if (mesh.zones.size() > 1) write("cellZones", {{zones_text(mesh), 0, 0, {}}});
+    files.emplace_back("boundary", std::vector<Section>{{boundary + ")\n", 0, 0, {}}});
+    if (mesh.zones.size() > 1)
+        files.emplace_back("cellZones", std::vector<Section>{{zones_text(mesh), 0, 0, {}}});
+    const auto share = [&](std::size_t f) {
+        return static_cast<double>(f) / static_cast<double>(files.size());
+    };
+    for (std::size_t f = 0; f < files.size(); ++f)
+        write_file(folder.file(files[f].first), files[f].second, Sizes::varying,
+                   part_of(context, share(f), share(f + 1)));
     folder.commit();
     report_progress(context, "writing " + path.text(), 1);
 }

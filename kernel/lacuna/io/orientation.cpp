@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/orientation.h>
+#include <lacuna/io/detail/deck_view.h>
 
 #include <lacuna/io/detail/cell_shapes.h>
 

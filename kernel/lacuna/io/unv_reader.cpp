@@ -11,7 +11,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::string_view kMark = "-1"; ///< begins and ends a dataset
+bool is_mark(std::string_view line) { return line == trimmed(kUnvMark); }
 
 /// A dataset of groups. `values`: how many numbers each entity has (type and tag; in later datasets also node
 /// and component). `count_at`: which number of the header is the number of entities.
@@ -61,7 +61,7 @@ public:
         std::string_view between; // the first line since the last dataset that has numbers only
         for (std::string_view line; !(line = cursor_.full_line()).empty();) {
             const std::size_t begin = cursor_.last();
-            if (line != kMark) {
+            if (!is_mark(line)) {
                 split(line);
                 if (between.empty() &&
                     std::ranges::all_of(numbers_, [](auto word) { return parse_real(word).has_value(); }))
@@ -72,7 +72,7 @@ public:
             ++datasets;
             const std::string_view head = cursor_.full_line();
             // If this mark ends a dataset, the numbers before it are a dataset whose first mark is missing.
-            if (!between.empty() && (head.empty() || head == kMark))
+            if (!between.empty() && (head.empty() || is_mark(head)))
                 cursor_.fail_at(static_cast<std::size_t>(between.data() - whole_.data()),
                                 "expected -1, which begins a dataset, found {}", found(shown(between)));
             between = {};
@@ -144,7 +144,7 @@ private:
     {
         if (cursor_.at_end()) cursor_.fail("the file ends within a dataset; expected -1");
         line_ = cursor_.line();
-        return line_ != kMark;
+        return !is_mark(line_);
     }
 
     /// Split the next line of the dataset into words.

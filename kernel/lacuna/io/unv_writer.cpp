@@ -20,8 +20,6 @@ namespace {
 using mesh::MeshView;
 
 constexpr std::size_t kColumn = 10, kReal = 25; // characters
-constexpr std::size_t kPerLine = 8;             // nodes per line
-constexpr std::string_view kMark = "    -1\n";
 
 char* put_double(char* out, double value)
 {
@@ -43,14 +41,14 @@ std::string columns(std::initializer_list<long long> numbers)
 /// Dataset 164. Its first factor converts lengths in metres to lengths in the file.
 std::string units(const MeshView& view, const std::string& unit)
 {
-    const std::string begin = std::string(kMark) + "   164\n";
+    const std::string begin = std::string(kUnvMark) + "   164\n";
     if (unit.empty() || (view.kept && view.kept->cards.find(begin) != begin.npos)) return {};
     char factors[3 * kReal + kNumberBytes];
     char* out = put_double(factors, 1 / metres_of(unit));
     for (const double one : {1.0, 1.0}) out = put_double(out, one);
     constexpr int kOwn = 9; // number for units that the dataset defines itself
     return begin + formatted("{:>10}{:<20}{:>10}\n", kOwn, unit, 2) + std::string(factors, out) + "\n" +
-           "   0.0000000000000000D+00\n" + std::string(kMark);
+           "   0.0000000000000000D+00\n" + std::string(kUnvMark);
 }
 
 void add_nodes(const View& view, DeckFile& file)
@@ -63,8 +61,8 @@ void add_nodes(const View& view, DeckFile& file)
         return out;
     };
     file.sections.push_back(
-        section_of_points(std::string(kMark) + "  2411\n", view, 5 * kNumberBytes + 3 * kReal, put));
-    file.add(std::string(kMark));
+        section_of_points(std::string(kUnvMark) + "  2411\n", view, 5 * kNumberBytes + 3 * kReal, put));
+    file.add(std::string(kUnvMark));
 }
 
 void add_elements(const View& view, std::size_t b, DeckFile& file)
@@ -84,7 +82,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
         out = put_words(out, "         1         7");
         out = put_right(out, static_cast<long long>(nodes), kColumn);
         for (std::size_t k = 0; k < nodes; ++k) {
-            if (k % kPerLine == 0) *out++ = '\n';
+            if (k % (kCardColumns / kColumn) == 0) *out++ = '\n';
             const std::size_t at = brick ? kMergedBrick[places[k]] : places[k];
             out = put_right(out, view->point_tags[index(element[at])], kColumn);
         }
@@ -112,19 +110,17 @@ void add_members(const View& view, std::size_t set, std::string head, DeckFile& 
 
 DeckFile unv_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
-    constexpr DeckTag kMost = 9'999'999'999; // ten characters; a larger number would touch the number before
-                                             // it
-    check_numbers(*view, kMost, "a universal file", "write another format");
+    check_numbers(*view, highest_of(kColumn), "a universal file", "write another format");
     const std::vector<MeshView::Set>& sets = view->sets;
     DeckFile file;
     if (view->kept) file.add(view->kept->cards);
     file.add(units(*view, options.unit));
     add_nodes(view, file);
-    file.add(std::string(kMark) + "  2412\n");
+    file.add(std::string(kUnvMark) + "  2412\n");
     for (std::size_t b = 0; b < view->blocks.size(); ++b) add_elements(view, b, file);
-    file.add(std::string(kMark));
+    file.add(std::string(kUnvMark));
     if (view->kept) file.add(view->kept->tail);
-    std::string head = std::string(kMark) + "  2467\n";
+    std::string head = std::string(kUnvMark) + "  2467\n";
     bool groups = false;
     int number = highest_tag(sets);
     std::vector<std::string> names;
@@ -147,7 +143,7 @@ DeckFile unv_file(const View& view, const MeshFileOptions& options, const mesh::
         if (two) add_members(view, ++s, {}, file);
         head.clear();
     }
-    if (groups) file.add(std::string(kMark));
+    if (groups) file.add(std::string(kUnvMark));
     return file;
 }
 

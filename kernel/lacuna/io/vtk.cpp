@@ -341,14 +341,13 @@ char* end_line(char* out, bool binary)
 /// Percent-encode blanks and special characters of a name, as VTK does: %20.
 std::string vtk_name(std::string_view name)
 {
-    constexpr std::string_view kHex = "0123456789ABCDEF";
     std::string text;
     for (const char c : name) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte > 32 && byte < 127 && c != '%' && c != '"')
             text += c;
         else
-            text.append(1, '%').append(1, kHex[byte / 16]).append(1, kHex[byte % 16]);
+            text += formatted("%{:02X}", byte);
     }
     return text;
 }

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/shared/large_pages.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
-#include <type_traits>
 
 namespace lacuna::io {
 namespace {
-
-template <class Value>
-double real(const char* bytes, bool big)
-{
-    return static_cast<double>(from_bytes<Value>(bytes, big));
-}
 
 template <class Value, class To>
 void convert(const char* bytes, bool big, std::size_t count, To* out)
@@ -30,7 +22,7 @@ void convert(const char* bytes, bool big, std::size_t count, To* out)
 template <class Value>
 constexpr VtkType type_of(std::string_view legacy, std::string_view xml)
 {
-    VtkType type{legacy, xml, sizeof(Value), real<Value>, convert<Value, double>, nullptr};
+    VtkType type{legacy, xml, sizeof(Value), convert<Value, double>, nullptr};
     if constexpr (std::is_integral_v<Value>) type.wholes = convert<Value, std::int64_t>;
     return type;
 }
@@ -103,24 +95,6 @@ const VtkType* vtk_type(std::string_view name)
     for (const VtkType& type : kTypes)
         if (same_word(type.legacy, name) || same_word(type.xml, name)) return &type;
     return nullptr;
-}
-
-std::int64_t append_places(const VtkType& type, std::string_view bytes, bool big, std::vector<Index>& places)
-{
-    constexpr std::size_t kPart = 4096; // numbers per pass, which fit into the first-level cache
-    std::int64_t part[kPart];
-    const std::size_t count = bytes.size() / type.bytes;
-    if (places.size() + count > places.capacity())
-        reserve_large(places, std::max(places.size() + count, 2 * places.capacity()));
-    for (std::size_t at = 0; at < count; at += kPart) {
-        const std::size_t here = std::min(kPart, count - at);
-        type.wholes(bytes.data() + at * type.bytes, big, here, static_cast<std::int64_t*>(part));
-        for (std::size_t i = 0; i < here; ++i) {
-            places.push_back(static_cast<Index>(part[i]));
-            if (places.back() != part[i]) return part[i];
-        }
-    }
-    return 0;
 }
 
 void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor)

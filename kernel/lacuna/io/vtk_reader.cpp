@@ -84,23 +84,16 @@ private:
         const std::uint64_t count = cursor_.size();
         if (!is_index(count)) cursor_.fail("too many points");
         const VtkType& type = needed_type(cursor_.word("a type of numbers"));
+        plausible(count, 3 * type.bytes, 3);
         std::vector<Vec3>& points = into_.points();
-        if (binary_) {
-            const std::string_view bytes = array_bytes(type, 3 * plausible(count, 3 * type.bytes, 3));
-            reserve_large(points, count);
-            points.resize(count);
-            if (count > 0) type.reals(bytes.data(), true, 3 * count, points.front().data());
-            if (!std::ranges::all_of(points, [](const Vec3& p) { return p.allFinite(); }))
+        reserve_large(points, count);
+        points.resize(count);
+        double* out = count > 0 ? points.front().data() : nullptr;
+        each_part<double>(type, 3 * count, [&](std::span<const double> values) {
+            if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
                 cursor_.fail("expected finite coordinates, found one that is not finite");
-            return;
-        }
-        const auto take = [&](std::uint64_t i, double value) {
-            if (!std::isfinite(value))
-                cursor_.fail("expected finite coordinates, found one that is not finite");
-            if (i % 3 == 0) points.emplace_back();
-            points.back()[static_cast<Index>(i % 3)] = value;
-        };
-        each_value(type, plausible(count, 3 * type.bytes, 3) * 3, take);
+            out = std::ranges::copy(values, out).out;
+        });
     }
 
     /// Read lists of points. Each list follows its length; from version 5.1 on, all offsets come first, then
@@ -171,8 +164,7 @@ private:
             if (same_word(kind, "string"))
                 for (std::uint64_t i = 0; i < count; ++i) skip_string();
             else
-                each_value(needed_type(kind), plausible(count, needed_type(kind).bytes, 1),
-                           [](std::uint64_t, double) {});
+                each_part<double>(needed_type(kind), count, [](std::span<const double>) {});
         }
     }
 
@@ -196,29 +188,21 @@ private:
     void read_places(std::string_view name, std::uint64_t count, std::vector<Index>& places)
     {
         const VtkType& type = needed_type(name);
-        plausible(count, type.bytes, 1);
-        if (!binary_ || type.wholes == nullptr)
-            return each_whole(type, count, [&](std::int64_t value) { places.push_back(place_of(value)); });
-        if (const std::int64_t wrong = append_places(type, array_bytes(type, count), true, places);
-            wrong != 0)
-            place_of(wrong);
+        reserve_large(places, plausible(count, type.bytes, 1));
+        each_part<std::int64_t>(type, count, [&](std::span<const std::int64_t> values) {
+            for (const std::int64_t value : values) places.push_back(place_of(value));
+        });
     }
 
     std::vector<std::int64_t> read_wholes(std::string_view name, std::uint64_t count)
     {
         const VtkType& type = needed_type(name);
-        std::vector<std::int64_t> values;
-        plausible(count, type.bytes, 1);
-        if (binary_ && type.wholes != nullptr) {
-            const std::string_view bytes = array_bytes(type, count);
-            reserve_large(values, count);
-            values.resize(count);
-            type.wholes(bytes.data(), true, count, values.data());
-            return values;
-        }
-        reserve_large(values, count);
-        each_whole(type, count, [&](std::int64_t value) { values.push_back(value); });
-        return values;
+        std::vector<std::int64_t> all;
+        reserve_large(all, plausible(count, type.bytes, 1));
+        each_part<std::int64_t>(type, count, [&](std::span<const std::int64_t> values) {
+            all.insert(all.end(), values.begin(), values.end());
+        });
+        return all;
     }
 
     const VtkType& needed_type(std::string_view name) const
@@ -245,20 +229,19 @@ private:
         return cursor_.bytes(type.bytes * count);
     }
 
-    template <class Take>
-    void each_value(const VtkType& type, std::uint64_t count, const Take& take)
+    /// Call `take(numbers)` for the next `count` numbers, some at a time.
+    template <class Number, class Take>
+    void each_part(const VtkType& type, std::uint64_t count, const Take& take)
     {
-        const std::string_view bytes = binary_ ? array_bytes(type, count) : std::string_view();
-        for (std::uint64_t i = 0; i < count; ++i)
-            take(i, binary_ ? type.real(bytes.data() + i * type.bytes, true) : cursor_.text_real());
-    }
-
-    /// Read `count` whole numbers from a text file, and call `take` with each.
-    template <class Take>
-    void each_whole(const VtkType& type, std::uint64_t count, const Take& take)
-    {
-        if (type.wholes == nullptr) cursor_.fail("expected whole numbers, found type {}", type.legacy);
-        for (std::uint64_t i = 0; i < count; ++i) take(cursor_.text_integer());
+        plausible(count, type.bytes, 1);
+        if (std::is_integral_v<Number> && type.wholes == nullptr)
+            cursor_.fail("expected whole numbers, found type {}", type.legacy);
+        if (binary_) return io::each_part<Number>(type, array_bytes(type, count), true, take);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const Number value = std::is_integral_v<Number> ? Number(cursor_.text_integer())
+                                                            : Number(cursor_.text_real());
+            take(std::span(&value, 1));
+        }
     }
 
     Cursor& cursor_;

@@ -249,74 +249,65 @@ private:
         std::vector<Vec3>& points = into_.points();
         const std::size_t first = points.size();
         std::size_t done = 0; // numbers read so far
-        const auto grow = [&](std::size_t count) {
-            const std::size_t needed = first + (done + count + 2) / 3;
-            if (needed > points.capacity()) reserve_large(points, std::max(needed, 2 * points.capacity()));
-            points.resize(needed);
-            double* const at = points[first].data() + done;
-            done += count;
-            return at;
-        };
-        each_run(
-            piece.at, "Points", 3 * piece.points, [&](double value) { *grow(1) = value; },
-            [&](const char* bytes, std::size_t count) {
-                piece.at.type->reals(bytes, big_, count, grow(count));
-            });
+        each_part<double>(piece.at, "Points", 3 * piece.points, [&](std::span<const double> values) {
+            const std::size_t more = (done + values.size() + 2) / 3 - (points.size() - first);
+            make_room(points, more);
+            points.resize(points.size() + more);
+            std::ranges::copy(values, points[first].data() + done);
+            done += values.size();
+        });
         for (std::size_t p = first; p < points.size(); ++p)
             if (!points[p].allFinite()) cursor_.fail_at(piece.at.position, "expected finite coordinates");
     }
 
-    std::int64_t whole_of(double value, const Array& array, const char* name) const
-    {
-        if (value != std::floor(value) || std::abs(value) > kMostWhole)
-            cursor_.fail_at(array.position, "expected whole numbers as {}", name);
-        return static_cast<std::int64_t>(value);
-    }
-
-    /// Like `each_run()`, but passes the numbers of floating-point arrays one by one.
-    template <class Take, class Run>
-    void each_whole(const Array& array, const char* name, std::uint64_t count, const Take& take,
-                    const Run& run)
-    {
-        each_run(array, name, count, take, [&](const char* bytes, std::size_t here) {
-            if (array.type->wholes != nullptr) return run(bytes, here);
-            for (std::size_t i = 0; i < here; ++i)
-                take(array.type->real(bytes + i * array.type->bytes, big_));
-        });
-    }
-
     std::vector<std::int64_t> wholes(const Array& array, const char* name, std::uint64_t count)
     {
-        std::vector<std::int64_t> values;
-        each_whole(
-            array, name, count, [&](double value) { values.push_back(whole_of(value, array, name)); },
-            [&](const char* bytes, std::size_t here) {
-                values.resize(values.size() + here);
-                array.type->wholes(bytes, big_, here, values.data() + values.size() - here);
-            });
-        return values;
+        std::vector<std::int64_t> all;
+        each_part<std::int64_t>(array, name, count, [&](std::span<const std::int64_t> values) {
+            make_room(all, values.size());
+            all.insert(all.end(), values.begin(), values.end());
+        });
+        return all;
     }
 
     void read_places(const Array& array, std::uint64_t count, std::vector<Index>& places)
     {
-        constexpr const char* kName = "connectivity";
-        const auto refuse = [&](std::int64_t value) {
-            cursor_.fail_at(array.position, "expected the number of a point, found {}", found(value));
+        each_part<std::int64_t>(array, "connectivity", count, [&](std::span<const std::int64_t> values) {
+            make_room(places, values.size());
+            for (const std::int64_t value : values) {
+                places.push_back(static_cast<Index>(value));
+                if (places.back() != value)
+                    cursor_.fail_at(array.position, "expected the number of a point, found {}", found(value));
+            }
+        });
+    }
+
+    /// Call `take(numbers)` for all `count` numbers of an array, some at a time. Whole numbers may be stored
+    /// as floating-point numbers.
+    template <class Number, class Take>
+    void each_part(const Array& array, const char* name, std::uint64_t count, const Take& take)
+    {
+        const auto take_real = [&](double value) {
+            // a double can represent every whole number of as many bits as it has digits
+            if (std::is_integral_v<Number> &&
+                (value != std::floor(value) ||
+                 std::abs(value) > std::ldexp(1, std::numeric_limits<double>::digits)))
+                cursor_.fail_at(array.position, "expected whole numbers as {}", name);
+            const auto number = static_cast<Number>(value);
+            take(std::span(&number, 1));
         };
-        const auto take = [&](double value) {
-            const std::int64_t number = whole_of(value, array, kName);
-            places.push_back(static_cast<Index>(number));
-            if (places.back() != number) refuse(number);
-        };
-        each_whole(array, kName, count, take, [&](const char* bytes, std::size_t here) {
-            const std::string_view run(bytes, here * array.type->bytes);
-            const std::int64_t wrong = append_places(*array.type, run, big_, places);
-            if (wrong != 0) refuse(wrong);
+        each_run(array, name, count, take_real, [&](std::string_view bytes) {
+            if (std::is_integral_v<Number> && array.type->wholes == nullptr)
+                io::each_part<double>(*array.type, bytes, big_, [&](std::span<const double> values) {
+                    std::ranges::for_each(values, take_real);
+                });
+            else
+                io::each_part<Number>(*array.type, bytes, big_, take);
         });
     }
 
     /// Read all `count` values of an array in any encoding. Values in text are passed one by one to
-    /// `take(value)`, binary values to `run(bytes, n)`, n at a time.
+    /// `take(value)`, binary values to `run(bytes)`, some at a time.
     template <class Take, class Run>
     void each_run(const Array& array, const char* name, std::uint64_t count, const Take& take, const Run& run)
     {
@@ -354,7 +345,7 @@ private:
         const std::uint64_t announced = header_number(bytes.data());
         if (announced != count * array.type->bytes)
             fail("expected {} bytes, found {}", needed(count * array.type->bytes), found(announced));
-        run(bytes.data() + header_->bytes, count);
+        run(bytes.substr(header_->bytes, count * array.type->bytes));
     }
 
     /// A number of the type that the file's header declares.
@@ -405,7 +396,7 @@ private:
             left += *plain;
             const std::uint64_t here = std::min<std::uint64_t>(count - taken,
                                                                left.size() / array.type->bytes);
-            if (here > 0) run(left.data(), here);
+            run(std::string_view(left).substr(0, here * array.type->bytes));
             taken += here;
             left.erase(0, here * array.type->bytes);
             if (taken == count && !left.empty()) break;
@@ -414,9 +405,6 @@ private:
             fail("expected {} numbers in the compressed data, found {}", needed(count),
                  found(taken == count ? "more" : std::to_string(taken)));
     }
-
-    // 2^53: a double can represent every whole number up to this.
-    static constexpr double kMostWhole = 9007199254740992.0;
 
     Cursor& cursor_;
     DeckBuilder& into_;

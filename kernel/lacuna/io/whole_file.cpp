@@ -21,6 +21,10 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#ifndef RWF_DONTCACHE
+#define RWF_DONTCACHE 0x80 // Linux 6.14; for headers that lack it
+#endif
+
 namespace lacuna::io {
 namespace fs = std::filesystem;
 namespace {
@@ -274,14 +278,9 @@ void WholeFile::reserve(std::uint64_t begin, std::uint64_t end)
 ssize_t WholeFile::write_some(std::uint64_t offset, std::string_view bytes)
 {
 #ifdef __linux__
-#ifdef RWF_DONTCACHE
-    constexpr int kPassCache = RWF_DONTCACHE;
-#else
-    constexpr int kPassCache = 0x80; // the same constant, for headers that lack it
-#endif
     if (can_pass_cache_ && std::max(reserved_, offset + bytes.size()) > cached_) {
         const iovec piece{const_cast<char*>(bytes.data()), bytes.size()};
-        const ssize_t done = ::pwritev2(descriptor_, &piece, 1, static_cast<off_t>(offset), kPassCache);
+        const ssize_t done = ::pwritev2(descriptor_, &piece, 1, static_cast<off_t>(offset), RWF_DONTCACHE);
         if (done >= 0 || (errno != EOPNOTSUPP && errno != ENOSYS && errno != EINVAL)) return done;
         can_pass_cache_ = false; // the system or the file system does not support it
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <vector>
@@ -22,6 +23,15 @@ void reserve_large(std::vector<Value>& values, std::size_t count)
     if (count <= values.capacity()) return;
     values.reserve(count);
     use_large_pages(values.data() + values.size(), (count - values.size()) * sizeof(Value));
+}
+
+/// Make room for `more` values at the end of a vector. Room grows geometrically, so that many small additions
+/// do not each copy all values.
+template <class Value>
+void make_room(std::vector<Value>& values, std::size_t more)
+{
+    const std::size_t needed = values.size() + more;
+    if (needed > values.capacity()) reserve_large(values, std::max(needed, 2 * values.capacity()));
 }
 
 } // namespace lacuna

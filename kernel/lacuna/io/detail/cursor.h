@@ -19,11 +19,15 @@
 /// Reading position in the bytes of a file. Internal to this folder.
 namespace lacuna::io {
 
+/// Columns of a line in the formats that began on punched cards.
+inline constexpr std::size_t kCardColumns = 80;
 /// How a file stores numbers.
 enum class Coding { text, little, big };
 /// Whether `1.5D+3` and `1.5+3` are numbers too.
 enum class Exponents { plain, fortran };
 
+/// Characters of a real number, at most: a double written out in full has some 330.
+inline constexpr std::size_t kLongestReal = 400;
 /// The text as a finite number, in any locale; empty if it is not a number. A number too small for a double
 /// gives 0.
 std::optional<double> parse_real(std::string_view text, Exponents exponents = Exponents::plain);
@@ -69,6 +73,13 @@ auto find_word(Entries& entries, std::string_view word, Of of = {})
 std::string upper(std::string_view text);
 /// Remove the first word from a text and return it; empty at the end of the text.
 std::string_view next_word(std::string_view& text, std::string_view separators = " \t\r\n");
+/// Call `take(number)` for each whole number of a text; blanks and commas separate words.
+template <class Take>
+void each_whole(std::string_view text, const Take& take)
+{
+    while (!text.empty())
+        if (const auto number = parse_integer<std::int64_t>(next_word(text, ", \t\r\n"))) take(*number);
+}
 /// Remove the first field, up to a comma, from a line and return it without blanks on either side.
 std::string_view next_field(std::string_view& line);
 /// Whether this number of entities can be numbered by an Index.
@@ -133,8 +144,6 @@ public:
     /// Convert a word read before to a number. @throw InvalidInput  it is not a number.
     std::int64_t integer_of(std::string_view word) const;
     double real_of(std::string_view word, Exponents exponents = Exponents::plain) const;
-    /// 4 bytes in the byte order of this machine.
-    int raw_integer() { return raw<int>(); }
     std::string_view bytes(std::uint64_t count);
 
     /// Check a count of records before memory is allocated. It is refused if the rest of the file is too

@@ -168,7 +168,6 @@ public:
 
 private:
     void check_points(const std::string& path) const;
-    std::string counted() const;
 
     Deck deck_;
     std::map<std::pair<int, int>, Index> regions_;

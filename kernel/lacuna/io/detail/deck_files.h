@@ -35,9 +35,9 @@ class DeckFiles {
 public:
     explicit DeckFiles(Cursor& main);
 
-    /// The cursor of a file that an INCLUDE at `place` names. @param depth  depth of nesting at that place.
+    /// The cursor of a file that an INCLUDE at `place` names.
     /// @throw InvalidInput  the file does not exist, lies elsewhere, or includes itself.
-    Cursor& include(const std::string& name, const DeckPlace& place, int depth);
+    Cursor& include(const std::string& name, const DeckPlace& place);
     /// Number of the file included last.
     [[nodiscard]] std::uint64_t last() const { return files_.size(); }
     [[nodiscard]] DeckPlace place_of(std::uint64_t number) const;

@@ -58,6 +58,12 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
 std::shared_ptr<mesh::MeshView> view_of(const Deck& deck, const Format& format,
                                         std::span<const BulkPart> parts = {});
 
+/// Add the directions of cells to a view of swept meshes that store their nodes. They become
+/// `MeshView::frames` and, with `fields`, the fields "column", "axis", "radial" and "tangential" with three
+/// components each.
+/// @param parts  in the order of the view's cells; cells after these have no directions.
+void add_orientation(std::span<const BulkPart> parts, bool fields, mesh::MeshView& view);
+
 /// Divide the view of several swept meshes into parts, as `write_parts()` says.
 /// @param parts  meshes of the view. The view numbers all cells of a mesh before its skin elements.
 /// @throw InvalidInput "io.too_many_parts"  there are fewer layers than parts.

@@ -197,6 +197,13 @@ inline char* put_right(char* out, long long number, std::size_t width)
 /// or if the kept text states it already.
 std::string unit_comment(const mesh::MeshView& view, std::string_view sign, const std::string& unit);
 
+/// The highest number that fits into a field of this many characters.
+constexpr DeckTag highest_of(std::size_t characters)
+{
+    DeckTag highest = 0;
+    for (; characters > 0; --characters) highest = 10 * highest + 9;
+    return highest;
+}
 /// Check that all node and element numbers fit into a format. @throw InvalidInput "io.number_taken"
 void check_numbers(const mesh::MeshView& view, DeckTag most, const std::string& format,
                    const std::string& remedy);

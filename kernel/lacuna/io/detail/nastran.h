@@ -13,6 +13,10 @@
 /// Cards and coordinate frames of Nastran bulk data. Internal to this folder.
 namespace lacuna::io {
 
+inline constexpr std::size_t kField = 8; ///< characters of a small field; the first and last field of a line
+                                         ///< are always small
+inline constexpr std::size_t kLargeField = 2 * kField; ///< characters
+
 /// A bulk data entry. Fields are numbered from 2, as in the manuals; omitted fields are blank.
 struct Card {
     std::string name;                     ///< in capitals
@@ -63,8 +67,8 @@ public:
     [[nodiscard]] const DeckPlace& first_superelement() const { return first_superelement_; }
 
 private:
-    void read_file(Cursor& cursor, std::uint64_t file, int depth);
-    void include(Cursor& cursor, std::string_view rest, std::uint64_t file, int depth);
+    void read_file(Cursor& cursor, std::uint64_t file);
+    void include(Cursor& cursor, std::string_view rest, std::uint64_t file);
     void read_line(const Cursor& cursor, std::uint64_t file, std::string_view line, std::string_view raw);
     bool take_fields(const DeckPlace& place);
     void split(const Cursor& cursor, std::string_view line);

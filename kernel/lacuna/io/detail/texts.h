@@ -18,11 +18,12 @@ namespace lacuna::io {
 /// An entity of a file or a mesh, for a message.
 NamedEntity numbered(const char* kind, std::integral auto tag) { return {kind, static_cast<long long>(tag)}; }
 
+/// Names of a list that are told one by one: sets are often renamed by the dozen, and users need every name.
+inline constexpr int kMostListed = 20;
 /// "a, b, c and 4 more"
 inline std::string listed(const std::vector<std::string>& names)
 {
-    constexpr int kMost = 20; // sets are often renamed by the dozen, and users need every new name
-    return short_list(names, std::identity(), kMost);
+    return short_list(names, std::identity(), kMostListed);
 }
 
 /// Append a name if it is neither empty nor already in the list.

@@ -3,6 +3,10 @@
 
 #include <lacuna/io/detail/deck_builder.h>
 
+#include <array>
+#include <span>
+#include <type_traits>
+
 /// Common parts of legacy VTK files and VTU files. Internal to this folder.
 namespace lacuna::io {
 
@@ -10,15 +14,28 @@ namespace lacuna::io {
 struct VtkType {
     std::string_view legacy, xml;
     std::size_t bytes;
-    double (*real)(const char* bytes, bool big);
     /// Convert consecutive numbers.
     void (*reals)(const char* bytes, bool big, std::size_t count, double* out);
     void (*wholes)(const char* bytes, bool big, std::size_t count,
                    std::int64_t* out); ///< null for floating-point numbers
 };
-/// Append whole numbers as indices. @return  0; or the first number that is not an `Index`, at which
-/// appending stops
-std::int64_t append_places(const VtkType& type, std::string_view bytes, bool big, std::vector<Index>& places);
+/// Call `take(numbers)` for consecutive numbers of an array, as many at a time as fit into the first-level
+/// cache. @tparam Number  double, or std::int64_t if the type has whole numbers
+template <class Number, class Take>
+void each_part(const VtkType& type, std::string_view bytes, bool big, const Take& take)
+{
+    std::array<Number, 4096> part;
+    for (std::size_t left = bytes.size() / type.bytes; left > 0;) {
+        const std::size_t count = std::min(part.size(), left);
+        if constexpr (std::is_integral_v<Number>)
+            type.wholes(bytes.data(), big, count, part.data());
+        else
+            type.reals(bytes.data(), big, count, part.data());
+        take(std::span<const Number>(part).first(count));
+        bytes.remove_prefix(count * type.bytes);
+        left -= count;
+    }
+}
 /// The type of this name; null: the name is unknown.
 const VtkType* vtk_type(std::string_view name);
 

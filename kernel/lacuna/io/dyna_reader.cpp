@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Keyword decks of LS-DYNA. Nodes, solids, shells, parts and sets are the mesh; all other cards are kept as
-// text. Wedges, pyramids and tetrahedra are written as hexahedra with repeated nodes, as for *ELEMENT_SOLID
-// in the Keyword User's Manual, volume I: https://lsdyna.ansys.com/manuals/
+// text.
+#include <lacuna/io/detail/dyna.h>
+
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_files.h>
-#include <lacuna/io/detail/format_table.h>
+#include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
-#include <lacuna/io/detail/side_nodes.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -24,62 +23,14 @@ void read_dyna(Cursor& cursor, DeckBuilder& into);
 namespace {
 
 using enum DeckShape;
-using mesh::MeshView;
+using namespace dyna_keyword;
 using mesh::SetKind;
 
-constexpr std::size_t kNumber = 8, kReal = 16, kSetNumber = 10; // columns of a field
-constexpr std::size_t kLong = 20;                               // columns of each field in long format
-constexpr std::size_t kPerLine = 8;                             // numbers per line of a set
-constexpr std::string_view kSolid = "ELEMENT_SOLID", kSolid20 = "ELEMENT_SOLID_H20",
-                           kThick = "ELEMENT_TSHELL", kShell = "ELEMENT_SHELL";
+constexpr std::size_t kLong = 20; // columns of each field in long format
 
-/// For each of the eight node fields of a solid, the index of the cell's corner there.
-struct Degenerate {
-    DeckShape shape;
-    std::array<std::uint8_t, 8> fields;
-};
-constexpr Degenerate kDegenerate[] = {{tet4, {0, 1, 2, 3, 3, 3, 3, 3}},
-                                      {pyramid5, {0, 1, 2, 3, 4, 4, 4, 4}},
-                                      {wedge6, {0, 2, 5, 3, 1, 1, 4, 4}},
-                                      {hex8, {0, 1, 2, 3, 4, 5, 6, 7}}};
-/// Other patterns that are read: a wedge whose triangle is swept, and a tetrahedron on its first three
-/// corners.
+/// Patterns of repeated nodes that are read besides those that are written: a wedge whose triangle is swept,
+/// and a tetrahedron on its first three corners.
 constexpr Degenerate kReadToo[] = {{wedge6, {0, 1, 2, 2, 3, 4, 5, 5}}, {tet4, {0, 1, 2, 2, 3, 3, 3, 3}}};
-
-/// The keyword of a line, in capitals, without the star and without the format sign at its end.
-std::string keyword_of(std::string_view line)
-{
-    std::string word = upper(next_word(line, " \t\r,"));
-    word.erase(0, 1);
-    while (word.ends_with('+') || word.ends_with('-') || word.ends_with('%')) word.pop_back();
-    return word;
-}
-
-std::vector<std::string_view> fields_of(std::string_view line, std::size_t first, std::size_t width,
-                                        std::size_t count)
-{
-    std::vector<std::string_view> fields = split_fields(line, first, width);
-    fields.resize(std::min(fields.size(), count));
-    return fields;
-}
-
-/// Call `take(keyword, data lines)` for every card of a text.
-template <class Take>
-void each_card(std::string_view text, const Take& take)
-{
-    std::string keyword;
-    std::vector<std::string_view> lines;
-    each_line(text, [&](std::string_view line) {
-        if (line.starts_with('$')) return;
-        if (!line.starts_with('*')) return lines.push_back(line);
-        if (!keyword.empty()) take(keyword, lines);
-        keyword = keyword_of(line);
-        lines.clear();
-    });
-    if (!keyword.empty()) take(keyword, lines);
-}
-
-// --- reading ----------------------------------------------------------------------------------------------
 
 class DynaReader {
 public:
@@ -87,7 +38,7 @@ public:
 
     void read()
     {
-        read_file(main_, 0, 0);
+        read_file(main_, 0);
         end_card();
         if (into_.points().empty()) main_.fail_at(0, "expected cards *NODE, found none");
         const TagPlaces tags(into_.deck().point_tags, [&](Index, Index node) {
@@ -120,7 +71,7 @@ private:
         DeckPlace place;
     };
 
-    void read_file(Cursor& cursor, std::uint64_t file, int depth)
+    void read_file(Cursor& cursor, std::uint64_t file)
     {
         while (!cursor.at_end()) {
             const std::string_view raw = cursor.raw_line();
@@ -129,7 +80,7 @@ private:
             if (line.ends_with('\r')) line.remove_suffix(1);
             if (line.starts_with('*')) {
                 end_card();
-                if (keyword_of(line) == "END") return;
+                if (dyna_keyword_of(line) == "END") return;
                 begin_card(line);
                 if (keyword_ == "KEYWORD" && begun_) continue;
                 begun_ = begun_ || keyword_ != "KEYWORD";
@@ -146,21 +97,21 @@ private:
                 else if (mode_ == Mode::element)
                     take_element(line);
                 else
-                    take_include(trimmed(line), depth);
+                    take_include(trimmed(line));
             }
         }
     }
 
     void begin_card(std::string_view line)
     {
-        keyword_ = keyword_of(line);
+        keyword_ = dyna_keyword_of(line);
         const std::string_view end = trimmed(line.substr(0, line.find('$')));
         const auto width_of = [&](std::size_t plain) {
             return end.ends_with('+') || (long_ && !end.ends_with('-'))  ? kLong
-                   : end.ends_with('%') || (ten_ && !end.ends_with('-')) ? std::max(plain, kSetNumber)
+                   : end.ends_with('%') || (ten_ && !end.ends_with('-')) ? std::max(plain, kDynaSetField)
                                                                          : plain;
         };
-        width_ = width_of(kNumber);
+        width_ = width_of(kDynaField);
         mode_ = Mode::keep;
         std::string base = keyword_;
         const bool titled = base.ends_with("_TITLE");
@@ -190,7 +141,7 @@ private:
             const SetKind kind = base == "SET_NODE"      ? SetKind::nodes
                                  : base == "SET_SEGMENT" ? SetKind::sides
                                                          : SetKind::elements;
-            sets_.push_back({kind, titled, ranges, width_of(kSetNumber), {}, place_});
+            sets_.push_back({kind, titled, ranges, width_of(kDynaSetField), {}, place_});
         } else {
             const bool element = keyword_.starts_with(kSolid) || keyword_.starts_with(kShell);
             if (element && unread_.insert(keyword_).second)
@@ -207,15 +158,15 @@ private:
         mode_ = Mode::keep;
     }
 
-    void take_include(std::string_view name, int depth)
+    void take_include(std::string_view name)
     {
         if (name.ends_with(" +"))
             place_.fail(Message(kUnreadable, "INCLUDE: the name of the file continues on the next line")
                             .remedy("give it a shorter name"));
         const DeckPlace place = place_;
-        Cursor& included = files_.include(std::string(name), place, depth);
+        Cursor& included = files_.include(std::string(name), place);
         mode_ = Mode::keep;
-        read_file(included, files_.last(), depth + 1);
+        read_file(included, files_.last());
         end_card();
         mode_ = Mode::include;
     }
@@ -234,8 +185,8 @@ private:
 
     void take_node(std::string_view line)
     {
-        const std::size_t real = width_ == kLong ? kLong : kReal;
-        const auto fields = fields_of(line, width_, real, 4);
+        const std::size_t real = width_ == kLong ? kLong : kDynaReal;
+        const auto fields = dyna_fields(line, width_, real, 4);
         Vec3 point = Vec3::Zero();
         if (fields.empty() || fields[0].empty()) place_.fail("expected the number of a node, found none");
         for (std::size_t k = 1; k < fields.size(); ++k) {
@@ -249,8 +200,8 @@ private:
         if (line.find(',') != line.npos)
             more = fields.size() < 4 ? "" : line.substr(std::min(line.size(), text_after(line, fields[3])));
         std::string text;
-        for (const std::string_view field : fields_of(more, width_, width_, 2))
-            text += std::string(kNumber - std::min(kNumber, field.size()), ' ').append(field);
+        for (const std::string_view field : dyna_fields(more, width_, width_, 2))
+            text += std::string(kDynaField - std::min(kDynaField, field.size()), ' ').append(field);
         if (text.find_first_not_of(" 0.") != text.npos)
             into_.deck().point_more.emplace_back(into_.points().size() - 1, std::move(text));
     }
@@ -263,7 +214,7 @@ private:
 
     void take_element(std::string_view line)
     {
-        const auto fields = fields_of(line, width_, width_, 10);
+        const auto fields = dyna_fields(line, width_, width_, 10);
         std::size_t first = 0;
         if (head_line_.empty()) {
             head_line_ = {number(fields[0], "an element"),
@@ -326,11 +277,11 @@ private:
     /// Name the regions after the titles of their parts; parts without elements keep their numbers.
     void name_regions()
     {
-        each_card(cards_, [&](const std::string& keyword, const std::vector<std::string_view>& lines) {
+        each_dyna_card(cards_, [&](const std::string& keyword, const std::vector<std::string_view>& lines) {
             if (keyword != "PART" && !keyword.starts_with("PART_")) return;
             const std::size_t each = keyword == "PART" ? 2 : std::max<std::size_t>(lines.size(), 2);
             for (std::size_t k = 0; k + 1 < lines.size(); k += each) {
-                const auto fields = fields_of(lines[k + 1], kSetNumber, kSetNumber, 3);
+                const auto fields = dyna_fields(lines[k + 1], kDynaSetField, kDynaSetField, 3);
                 const auto part = parse_integer<int>(fields.empty() ? std::string_view() : fields[0]);
                 if (!part || *part < 0) continue;
                 DeckRegion& region = into_.deck().regions[index(into_.region_of(*part))];
@@ -416,7 +367,8 @@ private:
                 return;
             if (line++ < first) return;
             std::vector<Index> row;
-            for (const std::string_view field : fields_of(text, card.width, card.width, kPerLine))
+            for (const std::string_view field :
+                 dyna_fields(text, card.width, card.width, kCardColumns / kDynaSetField))
                 row.push_back(field.empty() ? 0 : parse_integer<Index>(field).value_or(-1));
             take(row);
         });
@@ -433,7 +385,7 @@ private:
         const std::size_t at = card.titled ? 1 : 0;
         bool holds = lines.size() > at;
         if (holds) {
-            const auto head = fields_of(lines[at], card.width, card.width, kPerLine);
+            const auto head = dyna_fields(lines[at], card.width, card.width, kCardColumns / kDynaSetField);
             set.tag = parse_integer<int>(head.empty() ? std::string_view() : head[0]).value_or(-1);
             holds = set.tag >= 0;
             for (std::size_t k = 1; k < head.size(); ++k)
@@ -488,7 +440,7 @@ private:
     Mode mode_ = Mode::keep;
     std::set<std::string> unread_; ///< keywords of elements that are kept as text
     bool begun_ = false, long_ = false, ten_ = false;
-    std::size_t width_ = kNumber;
+    std::size_t width_ = kDynaField;
     std::vector<Index> head_line_, nodes_; ///< the element that is being read: its number and part, and
                                            ///< its nodes
     std::vector<SetCard> sets_;
@@ -496,253 +448,24 @@ private:
     std::vector<DeckTag> sorted_nodes_, sorted_elements_;
 };
 
-// --- writing ----------------------------------------------------------------------------------------------
-
-class DynaWriter {
-public:
-    DynaWriter(const View& view, const std::string& unit) : view_(view), sides_(*view)
-    {
-        own_.head = "*KEYWORD\n", own_.tail = "*END\n";
-        kept_ = view_->kept && !view_->kept->head.empty() ? &*view_->kept : &own_;
-        const std::string head = upper(kept_->head);
-        // A deck in long format may contain cards in the standard format; their keywords need the sign "-".
-        const bool is_plain = head.find("LONG=") == head.npos && head.find("I10=") == head.npos;
-        end_ = is_plain ? "\n" : " -\n";
-        file_.add(kept_->head + unit_comment(*view_, "$", unit));
-    }
-
-    DeckFile write()
-    {
-        each_card(kept_->cards, [&](const std::string& keyword, const std::vector<std::string_view>& lines) {
-            scan(keyword, lines);
-        });
-        add_nodes();
-        for (std::size_t b = 0; b < view_->blocks.size(); ++b) add_elements(b);
-        file_.add(kept_->cards);
-        for (std::size_t r = 0; r < view_->regions.size(); ++r) add_part(r);
-        numbers_.resize(view_->sets.size());
-        for (std::size_t s = 0; s < view_->sets.size(); ++s) add_set(s);
-        add_contacts();
-        file_.add(kept_->tail);
-        return std::move(file_);
-    }
-
-private:
-    /// Record the numbers of parts, sections and sets in the kept text.
-    void scan(const std::string& keyword, const std::vector<std::string_view>& lines)
-    {
-        const auto number = [&](std::size_t line) {
-            const auto fields = line < lines.size() ? fields_of(lines[line], kSetNumber, kSetNumber, 1)
-                                                    : std::vector<std::string_view>();
-            return fields.empty() ? 0 : parse_integer<int>(fields[0]).value_or(0);
-        };
-        const std::size_t titled = keyword.ends_with("_TITLE") ? 1 : 0;
-        if (keyword == "PART" || keyword.starts_with("PART_"))
-            for (std::size_t k = 1; k < lines.size(); k += keyword == "PART" ? 2 : lines.size())
-                parts_.push_back(number(k));
-        if (keyword.starts_with("SECTION_")) highest_section_ = std::max(highest_section_, number(titled));
-        if (keyword.starts_with("SET_")) highest_set_ = std::max(highest_set_, number(titled));
-        if (keyword.starts_with("CONTACT_")) highest_contact_ = std::max(highest_contact_, number(0));
-    }
-
-    void add_nodes()
-    {
-        const auto put = [more = view_->kept ? kept_->points : MeshView::TextByIndex()](
-                             std::size_t p, DeckTag tag, const Vec3& point, char* out) {
-            out = put_right(out, tag, kNumber);
-            for (const double x : point) {
-                char text[kReal];
-                out = put_right(out, {text, static_cast<std::size_t>(put_real(text, x, kReal) - text)},
-                                kReal);
-            }
-            out = put_words(out, text_of(more, p));
-            *out++ = '\n';
-            return out;
-        };
-        constexpr std::size_t kMost = 3 * kNumber + 3 * kReal + 1;
-        file_.sections.push_back(section_of_points("*NODE" + end_, view_, kMost, put));
-    }
-
-    void add_elements(std::size_t b)
-    {
-        const MeshView::Block& block = view_->blocks[b];
-        if (block.count == 0) return;
-        const auto [dimension, corners, nodes] = shape_info(block.shape);
-        const auto pattern = std::ranges::find(kDegenerate, block.shape, &Degenerate::shape);
-        std::string keyword(dimension == 2 ? kShell : block.shape == hex20 ? kSolid20 : kSolid);
-        if (view_->kept && block.type == kThick) keyword = kThick;
-        const bool shell = block.shape == tri3 || block.shape == quad4 || block.shape == quad8;
-        if (pattern == std::end(kDegenerate) && block.shape != tet10 && block.shape != hex20 && !shell)
-            refuse_element(block, "LS-DYNA", "there is no such element");
-        file_.add("*" + keyword + end_);
-        const auto put = [=, view = view_](std::size_t, DeckTag tag, Index region, std::span<const Index> own,
-                                           char* out) {
-            out = put_right(out, tag, kNumber);
-            out = put_right(out, region < 0 ? 0 : view->regions[index(region)].tag, kNumber);
-            const auto put_node = [&](std::size_t k) {
-                out = put_right(out, view->point_tags[index(own[k])], kNumber);
-            };
-            if (pattern != std::end(kDegenerate)) {
-                for (const std::uint8_t k : pattern->fields) put_node(k);
-            } else {
-                for (std::size_t k = 0; k < own.size(); ++k) {
-                    if (!shell && k % 10 == 0) *out++ = '\n';
-                    put_node(k);
-                }
-                if (own.size() == 3) put_node(2);
-            }
-            *out++ = '\n';
-            return out;
-        };
-        file_.sections.push_back(section_of_cells(view_, b, 24 * kNumber, put));
-        for (const auto& [end, region] : block.regions)
-            if (region >= 0) forms_[region].insert(block.shape);
-        for (const auto& [end, region] : block.regions)
-            if (block.type.starts_with("COH")) cohesive_.insert(region);
-    }
-
-    /// Add the part of a region, if no card defines it, and a section for its solids.
-    void add_part(std::size_t r)
-    {
-        const auto forms = forms_.find(static_cast<Index>(r));
-        const int tag = view_->regions[r].tag;
-        if (forms == forms_.end() || std::ranges::find(parts_, tag) != parts_.end()) return;
-        const bool solid = shape_info(*forms->second.rbegin()).dimension == 3;
-        const int section = highest_section_ > 0 ? ++highest_section_ : tag;
-        std::string text = "*PART" + end_ + title(view_->regions[r].name) + "\n";
-        for (const int field : {tag, section, 1}) text += formatted("{:>10}", field);
-        text += "\n";
-        if (solid) {
-            const bool one = forms->second.size() == 1;
-            const int form = cohesive_.contains(forms->first)       ? 19
-                             : one && forms->second.contains(hex20) ? 23
-                             : one && forms->second.contains(tet10) ? 16
-                             : one && forms->second.contains(tet4)  ? 10
-                                                                    : 1;
-            text += formatted("*SECTION_SOLID{}{:>10}{:>10}\n", end_, section, form);
-        }
-        file_.add(std::move(text));
-    }
-
-    std::string title(const std::string& name)
-    {
-        constexpr std::size_t kLongest = 80;
-        if (name.size() > kLongest)
-            file_.notes.push_back(formatted("{} is called {}", name, name.substr(0, kLongest)));
-        return name.substr(0, kLongest);
-    }
-
-    void add_set(std::size_t s)
-    {
-        const MeshView::Set& set = view_->sets[s];
-        if (set.kind == SetKind::sides) return add_segments(set);
-        if (set.count == 0) return;
-        if (set.kind == SetKind::nodes) return add_members(s, "*SET_NODE_LIST_TITLE", numbers_of(s));
-        std::vector<std::size_t> of[2]; // solids, shells
-        if (shells_.empty())
-            shells_ = tags_of_blocks(*view_,
-                                     [](const auto& b) { return shape_info(b.shape).dimension == 2; });
-        if (shells_.empty()) return add_members(s, "*SET_SOLID_TITLE", numbers_of(s));
-        set.members.each(0, set.count, [&](std::size_t, DeckTag tag) {
-            of[std::ranges::binary_search(shells_, tag) ? 1 : 0].push_back(static_cast<std::size_t>(tag));
-        });
-        for (const std::size_t k : {0, 1}) {
-            mesh::Ranges members;
-            for (const std::size_t tag : of[k]) members.add(tag, tag + 1);
-            if (!of[k].empty())
-                add_members(s, k == 0 ? "*SET_SOLID_TITLE" : "*SET_SHELL_LIST_TITLE",
-                            mesh::Numbers(std::move(members)), of[k].size());
-        }
-    }
-
-    [[nodiscard]] mesh::Numbers numbers_of(std::size_t s) const { return view_->sets[s].members; }
-
-    std::string head_of(const MeshView::Set& set, const std::string& keyword)
-    {
-        int tag = set.tag;
-        if (tag <= 0 || !ids_[keyword].insert(tag).second)
-            tag = highest_set_ = highest_tag(view_->sets, highest_set_) + 1;
-        numbers_[static_cast<std::size_t>(&set - view_->sets.data())] = tag;
-        return keyword + end_ + title(set.name) + "\n" + formatted("{:>10}\n", tag);
-    }
-
-    void add_members(std::size_t s, const std::string& keyword, mesh::Numbers members, std::size_t count = 0)
-    {
-        if (count == 0) count = view_->sets[s].count;
-        file_.sections.push_back(
-            {head_of(view_->sets[s], keyword), count, kSetNumber + 1,
-             [members = std::move(members), count](std::size_t begin, std::size_t end, char* out) {
-                 members.each(begin, end, [&](std::size_t i, DeckTag tag) {
-                     out = put_right(out, tag, kSetNumber);
-                     if ((i + 1) % kPerLine == 0 || i + 1 == count) *out++ = '\n';
-                 });
-                 return out;
-             }});
-    }
-
-    void add_segments(const MeshView::Set& set)
-    {
-        std::string text;
-        std::size_t edges = 0;
-        for (const DeckSide& side : set.sides) {
-            const std::span<const Index> nodes = sides_[side];
-            if (nodes.empty()) ++edges;
-            if (nodes.empty()) continue;
-            const std::size_t corners = nodes.size() == 3 || nodes.size() == 6 ? 3 : 4;
-            char line[4 * kNumberBytes];
-            char* out = line;
-            for (std::size_t k = 0; k < 4; ++k)
-                out = put_right(out, view_->point_tags[index(nodes[std::min(k, corners - 1)])], kSetNumber);
-            text.append(line, out).append("\n");
-        }
-        if (edges > 0)
-            file_.notes.push_back(
-                formatted("{} edges of shells in the set {} are not written", edges, set.name));
-        if (!text.empty()) file_.add(head_of(set, "*SET_SEGMENT_TITLE") + text);
-    }
-
-    /// Add each contact pair as two segment sets: surface A is the slave, surface B the master. A tied
-    /// contact with an offset moves no node. Fields 3 and 4 of its third card are thicknesses; if they are
-    /// negative, nodes are tied by distance alone (PyDYNA's keyword classes). The distance limit is then the
-    /// sum of both values without their signs; converters to OpenRadioss use 0.6 times this sum. Both fields
-    /// are written as minus the tolerance, so the limit is 2 or 1.2 times the tolerance.
-    void add_contacts()
-    {
-        for (const mesh::ContactPair& pair : view_->contacts) {
-            file_.add(formatted(
-                "*CONTACT_{}_SURFACE_TO_SURFACE{}_ID{}{:>10}{}\n{:>10}{:>10}{:>10}{:>10}\n{:>10}\n",
-                pair.tied ? "TIED" : "AUTOMATIC", pair.tied ? "_OFFSET" : "", end_, ++highest_contact_,
-                title(pair.name), numbers_[pair.sets[0]], numbers_[pair.sets[1]], 0, 0, 0));
-            file_.add(pair.tied ? formatted("{:>10}{:>10}{:>10.3g}{:>10.3g}\n", 1, 1, -pair.tolerance,
-                                            -pair.tolerance)
-                                : formatted("{:>10}\n", 0));
-        }
-    }
-
-    View view_;
-    SideNodes sides_;
-    MeshView::KeptText own_;
-    const MeshView::KeptText* kept_ = nullptr; ///< kept text of the deck, or `own_`
-    DeckFile file_;
-    std::string end_;                            ///< end of a line with a keyword
-    std::map<Index, std::set<DeckShape>> forms_; ///< shapes of the elements in each region
-    std::set<Index> cohesive_;                   ///< regions of cohesive elements
-    std::vector<int> parts_;                     ///< parts that the kept text defines
-    int highest_section_ = 0, highest_set_ = 0, highest_contact_ = 0; ///< in the kept text
-    std::map<std::string, std::set<int>> ids_;                        ///< numbers of the sets of each keyword
-    std::vector<DeckTag> shells_;
-    std::vector<int> numbers_; ///< numbers of the sets as written
-};
-
 } // namespace
 
-void read_dyna(Cursor& cursor, DeckBuilder& into) { DynaReader(cursor, into).read(); }
-
-DeckFile dyna_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
+std::string dyna_keyword_of(std::string_view line)
 {
-    constexpr DeckTag kMost = 99'999'999; // eight characters
-    check_numbers(*view, kMost, "an LS-DYNA deck", "give first_node and first_cell, or write another format");
-    return DynaWriter(view, options.unit).write();
+    std::string word = upper(next_word(line, " \t\r,"));
+    word.erase(0, 1);
+    while (word.ends_with('+') || word.ends_with('-') || word.ends_with('%')) word.pop_back();
+    return word;
 }
+
+std::vector<std::string_view> dyna_fields(std::string_view line, std::size_t first, std::size_t width,
+                                          std::size_t count)
+{
+    std::vector<std::string_view> fields = split_fields(line, first, width);
+    fields.resize(std::min(fields.size(), count));
+    return fields;
+}
+
+void read_dyna(Cursor& cursor, DeckBuilder& into) { DynaReader(cursor, into).read(); }
 
 } // namespace lacuna::io
