@@ -8,10 +8,10 @@ usage: corners.py LACUNA [--runs 5] [--only assembly,plate,loops,bodies,gaps,sta
 
 Inputs are made here. Figures are seconds of the processor of whole processes, without the CAD process, and medians of
 `runs`; the start, and the sweeps of the CAD files below `--data`, are the clock's. Small sources are compared with
-Gmsh by `pave/against_gmsh.py`, with the bench_pave of the build. Growth is the power of the seconds of each stage over four
-sizes, of six families: plates with holes, bundles of tubes, honeycombs, assemblies of boxes, scanned tubes,
-perforated drums; stages below 0.05 s at the largest size are not judged. The exit code is 1 where a bar is missed.
-Inputs of CAD need python3-gmsh; without it their bars are unmeasured.
+Gmsh by `pave/against_gmsh.py`, with the bench_pave of the build. Growth is the power of the processor seconds of each
+stage over four sizes, of six families: plates with holes, bundles of tubes, honeycombs, assemblies of boxes, scanned
+tubes, perforated drums; stages below 0.05 s at the largest size are not judged. The exit code is 1 where a bar is
+missed. Inputs of CAD need python3-gmsh; without it their bars are unmeasured.
 """
 import argparse
 import json
@@ -331,11 +331,11 @@ def honeycomb(rows):
 
 
 def drum(holes):
+    """Holes in the order of a sunflower's seeds, so that the area of the drum grows as their number."""
     def build(occ):
-        radius = holes * 1.2
-        tools = [(3, occ.addCylinder(0.75 * radius * math.cos(2 * math.pi * k / holes), 0.75 * radius * math.sin(2 * math.pi * k / holes),
+        tools = [(3, occ.addCylinder(2 * math.sqrt(k + 0.5) * math.cos(2.4 * k), 2 * math.sqrt(k + 0.5) * math.sin(2.4 * k),
                                      -1, 0, 0, 7, 1)) for k in range(holes)]
-        occ.cut([(3, occ.addCylinder(0, 0, 0, 0, 0, 5, radius))], tools)
+        occ.cut([(3, occ.addCylinder(0, 0, 0, 0, 0, 5, 2 * math.sqrt(holes) + 3))], tools)
     return build
 
 
@@ -395,7 +395,7 @@ def grow(options, folder, family):
         found = {}
         for stage in json.loads(timing.read_text())["stages"]:
             name = stage["stage"].split(" ")[0]
-            found[name] = found.get(name, 0) + stage["seconds"]
+            found[name] = found.get(name, 0) + stage["processor_seconds"]
         for name, seconds in found.items():
             stages.setdefault(name, []).append((work, seconds))
     return {name: points for name, points in stages.items() if len(points) == 4 and points[-1][1] >= LEAST}

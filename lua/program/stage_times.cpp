@@ -39,6 +39,13 @@ double seconds_of(const timeval& time)
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
+double processor_seconds()
+{
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+}
+
 } // namespace
 
 void StageTimes::watch(InterpreterOptions& options)
@@ -59,6 +66,7 @@ void StageTimes::begin(std::string_view stage)
     end();
     stage_ = stage;
     since_ = Clock::now();
+    processor_since_ = processor_seconds();
 }
 
 void StageTimes::end()
@@ -66,31 +74,34 @@ void StageTimes::end()
     if (stage_.empty()) return;
     const double seconds = std::chrono::duration<double>(Clock::now() - since_).count();
     auto own = std::ranges::find(stages_, stage_, &Stage::name);
-    if (own == stages_.end()) own = stages_.insert(own, {stage_, 0});
+    if (own == stages_.end()) own = stages_.insert(own, {stage_, 0, 0});
     own->seconds += seconds;
+    own->processor_seconds += processor_seconds() - processor_since_;
     stage_.clear();
 }
 
 std::string StageTimes::to_json(const std::string& recipe, int threads) const
 {
-    const double all = std::chrono::duration<double>(Clock::now() - start_).count();
+    Stage rest{"recipe", std::chrono::duration<double>(Clock::now() - start_).count(), processor_seconds()};
     rusage usage = {};
     getrusage(RUSAGE_SELF, &usage);
-    std::string text = "{\"recipe\": " + quoted(recipe) + ", \"seconds\": " + number(all) +
-                       ", \"processor_seconds\": " +
-                       number(seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime)) +
+    const auto times = [](const Stage& of) {
+        return "\"seconds\": " + number(of.seconds) +
+               ", \"processor_seconds\": " + number(of.processor_seconds);
+    };
+    std::string text = "{\"recipe\": " + quoted(recipe) + ", " + times(rest) +
                        ", \"peak_mib\": " + number(static_cast<double>(usage.ru_maxrss) / 1024) +
                        ", \"threads\": " + std::to_string(threads) + ", \"stages\": [";
-    double told = 0;
-    const auto add = [&](const std::string& name, double seconds) {
-        text += "{\"stage\": " + quoted(name) + ", \"seconds\": " + number(seconds) + "}";
+    const auto add = [&](const Stage& stage) {
+        text += "{\"stage\": " + quoted(stage.name) + ", " + times(stage) + "}";
     };
     for (const Stage& stage : stages_) {
-        add(stage.name, stage.seconds);
+        add(stage);
         text += ", ";
-        told += stage.seconds;
+        rest.seconds = std::max(0.0, rest.seconds - stage.seconds);
+        rest.processor_seconds = std::max(0.0, rest.processor_seconds - stage.processor_seconds);
     }
-    add("recipe", std::max(0.0, all - told));
+    add(rest);
     return text + "]}";
 }
 

@@ -372,6 +372,8 @@ TEST_CASE("points that no triangle uses change no bit of harmonic values, and er
     CHECK(shifted.middleRows(unused, values.rows()) == values);
     CHECK(shifted.topRows(unused).isZero(0));
     CHECK(shifted.bottomRows(1).isZero(0));
+    const HarmonicValues found = solve_on_facets(other);
+    for (const Index p : found.points) CHECK(found.at(p) == shifted.row(p));
     other.fixed = {0};
     other.fixed_values = other.fixed_values.topRows(1).eval();
     CHECK_THROWS_WITH_AS(solve_harmonic(other), doctest::Contains("point 9 "), BackendError);

@@ -480,7 +480,7 @@ do
   check.equal(count, check.whole and 30 or 18)
 end
 
--- --timing: seconds by stage, which add up, of what fails too.
+-- --timing: seconds by stage, which add up, of what fails too; those of the processor too.
 check.write(folder .. "/timed.lua", [[
 local lacuna = require "lacuna"
 local params = lacuna.params { fails = false }
@@ -496,12 +496,14 @@ for _, fails in ipairs { "false", "true" } do
   check.equal(code, fails == "true" and 1 or 0, err)
   local file <close> = assert(io.open(folder .. "/" .. name))
   local line = file:read("a")
-  local all, sum, stages = tonumber(line:match('"seconds": ([%d.]+)')), 0, {}
-  for stage, seconds in line:gmatch('"stage": "([^"]*)", "seconds": ([%d.]+)') do
-    sum = sum + tonumber(seconds)
+  local stages, times = {}, '"seconds": ([%d.]+), "processor_seconds": ([%d.]+)'
+  local all, all_busy = line:match(times)
+  local sum, busy = 0, 0
+  for stage, seconds, processor_seconds in line:gmatch('"stage": "([^"]*)", ' .. times) do
+    sum, busy = sum + tonumber(seconds), busy + tonumber(processor_seconds)
     stages[stage] = tonumber(seconds)
   end
-  check.that(math.abs(sum - all) < 1e-3, line)
+  check.that(math.abs(sum - all) < 1e-3 and math.abs(busy - all_busy) < 1e-3, line)
   check.that(stages["roles"] and stages["closing"] and stages["layers"] and stages["writing timed.msh"], line)
   check.that(stages["recipe"] >= 0.04, "a pause of the recipe is no stage of the kernel: " .. line)
 end

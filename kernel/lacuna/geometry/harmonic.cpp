@@ -359,33 +359,39 @@ Eigen::MatrixXd solve_compact(const HarmonicProblem& problem, std::span<const In
 
 } // namespace
 
-Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context)
+HarmonicValues solve_on_facets(const HarmonicProblem& problem, const RunContext& context)
 {
     check(problem);
-    // Give consecutive numbers to the points that triangles use: the walls use few points of a large model.
-    std::vector<char> is_used(problem.points.size(), 0);
+    // Give consecutive numbers to the points that are used: the walls use few points of a large model.
+    HarmonicValues result;
+    std::vector<Index>& used = result.points;
     for (const Triangle& triangle : problem.triangles)
-        for (const Index corner : triangle) is_used[index(corner)] = 1;
-    for (const Index point : problem.fixed) is_used[index(point)] = 1;
+        used.insert(used.end(), triangle.begin(), triangle.end());
+    used.insert(used.end(), problem.fixed.begin(), problem.fixed.end());
+    std::ranges::sort(used);
+    used.erase(std::ranges::unique(used).begin(), used.end());
+    const auto renumber = [&](Index& point) {
+        point = static_cast<Index>(std::ranges::lower_bound(used, point) - used.begin());
+    };
     HarmonicProblem compact = problem;
     std::vector<Vec3> points;
-    std::vector<Index> used, local(is_used.size());
-    for (std::size_t p = 0; p < local.size(); ++p) {
-        local[p] = static_cast<Index>(used.size());
-        if (is_used[p] == 0) continue;
-        used.push_back(static_cast<Index>(p));
-        points.push_back(problem.points[p]);
-    }
+    for (const Index point : used) points.push_back(problem.points[index(point)]);
     std::vector<Triangle> triangles(problem.triangles.begin(), problem.triangles.end());
-    for (Triangle& triangle : triangles)
-        for (Index& corner : triangle) corner = local[index(corner)];
-    for (Index& point : compact.fixed) point = local[index(point)];
+    for (Triangle& triangle : triangles) std::ranges::for_each(triangle, renumber);
+    std::ranges::for_each(compact.fixed, renumber);
     compact.points = points;
     compact.triangles = triangles;
-    const Eigen::MatrixXd found = solve_compact(compact, used, context);
-    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(local.size()), found.cols());
-    for (std::size_t i = 0; i < used.size(); ++i)
-        values.row(used[i]) = found.row(static_cast<Eigen::Index>(i));
+    result.values = solve_compact(compact, used, context);
+    return result;
+}
+
+Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context)
+{
+    const HarmonicValues found = solve_on_facets(problem, context);
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem.points.size()),
+                                                   found.values.cols());
+    for (std::size_t i = 0; i < found.points.size(); ++i)
+        values.row(found.points[i]) = found.values.row(static_cast<Eigen::Index>(i));
     return values;
 }
 

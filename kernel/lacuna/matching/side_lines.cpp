@@ -48,93 +48,72 @@ std::map<Index, double> heights_along(const Model& model, const std::vector<Side
     return heights;
 }
 
-/// The points of triangles, ascending.
-/// @param local  output, by point of the model: the index of the point in the result.
-std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector<Index>& local)
-{
-    std::vector<Index> used;
-    for (const Index p : triangles | std::views::join) {
-        if (local[index(p)] >= 0) continue;
-        local[index(p)] = 0;
-        used.push_back(p);
-    }
-    std::ranges::sort(used);
-    for (std::size_t i = 0; i < used.size(); ++i) local[index(used[i])] = static_cast<Index>(i);
-    return used;
-}
-
 enum class Digits { all, nine };
 
-/// The height problem on one wall part.
-struct PartHeights {
-    std::vector<Index> used;         ///< points of the model, ascending
-    std::vector<Triangle> triangles; ///< in indices of `used`
-    std::vector<Index> fixed;        ///< indices of `used`
-    std::vector<double> values;      ///< their heights
-    bool joins = false;              ///< whether the part joins both rims; otherwise it has no heights
-};
+/// The points whose heights are known: 0 on the source's rim, 1 on the target's, and those on side lines.
+class KnownHeights {
+public:
+    KnownHeights(const OpenVolume& volume, const std::vector<SideLine>& lines)
+    {
+        const auto add = [this](Index point, double height) {
+            number_.emplace_back(point, known_.size());
+            known_.emplace_back(point, height);
+        };
+        for (const Index p : rim_points(volume.model, volume.faces(Role::source))) add(p, 0);
+        low_ = known_.size();
+        for (const Index p : rim_points(volume.model, volume.faces(Role::target))) add(p, 1);
+        high_ = known_.size();
+        for (const auto& [p, height] : heights_along(volume.model, lines)) add(p, height);
+        std::ranges::sort(number_);
+    }
 
-/// @param local  scratch memory: -1 for every point of the model, before and after the call
-PartHeights part_heights(const Model& model, const std::vector<FaceId>& part, const std::vector<Index>& low,
-                         const std::vector<Index>& high, const std::map<Index, double>& on_lines,
-                         std::vector<Index>& local)
-{
-    PartHeights result;
-    result.triangles = facets_of(model, part);
-    result.used = points_of(result.triangles, local);
-    const auto fix = [&](Index p, double value) {
-        if (local[index(p)] < 0) return false;
-        result.fixed.push_back(local[index(p)]);
-        result.values.push_back(value);
-        return true;
-    };
-    const auto fix_all = [&](const std::vector<Index>& points, double value) {
-        bool any = false;
-        for (const Index p : points) any = fix(p, value) || any;
-        return any;
-    };
-    const bool joins_source = fix_all(low, 0);
-    const bool joins_target = fix_all(high, 1);
-    result.joins = joins_source && joins_target;
-    for (const auto& [p, height] : on_lines) fix(p, height);
-    for (Index& p : result.triangles | std::views::join) p = local[index(p)];
-    for (const Index p : result.used) local[index(p)] = -1;
-    return result;
-}
+    /// Fix the heights of a problem's points. @return  whether its triangles join both rims
+    bool fix(geometry::HarmonicProblem& problem) const
+    {
+        std::vector<Index> points;
+        for (const Triangle& t : problem.triangles) points.insert(points.end(), t.begin(), t.end());
+        std::ranges::sort(points);
+        points.erase(std::ranges::unique(points).begin(), points.end());
+        std::vector<std::size_t> own;
+        for (const Index p : points)
+            for (const auto& [point, number] : std::ranges::equal_range(number_, p, {}, &Numbered::first))
+                own.push_back(number);
+        std::ranges::sort(own);
+        problem.fixed_values.resize(static_cast<Eigen::Index>(own.size()), 1);
+        for (const std::size_t k : own) {
+            problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size()), 0) = known_[k].second;
+            problem.fixed.push_back(known_[k].first);
+        }
+        const auto first_of_target = std::ranges::lower_bound(own, low_);
+        return first_of_target != own.begin() && first_of_target != own.end() && *first_of_target < high_;
+    }
+
+private:
+    using Numbered = std::pair<Index, std::size_t>;
+    std::vector<std::pair<Index, double>> known_;
+    std::vector<Numbered> number_; ///< points and their indices in known_, by point
+    std::size_t low_ = 0, high_ = 0;
+};
 
 /// wall_heights() of some wall parts.
 std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
                                const std::vector<SideLine>& lines, Digits digits, const RunContext& context)
 {
     const Model& model = volume.model;
-    std::vector<double> heights(model.points.size(), std::numeric_limits<double>::quiet_NaN());
-    const std::vector<Index> low = rim_points(model, volume.faces(Role::source));
-    const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
-    const std::map<Index, double> on_lines = heights_along(model, lines);
-    std::vector<Index> local(model.points.size(), -1); // by point: its number in the current part
-    std::vector<PartHeights> found;
-    found.reserve(parts.size());
-    for (const std::vector<FaceId>& part : parts)
-        found.push_back(part_heights(model, part, low, high, on_lines, local));
-    std::vector<Eigen::MatrixXd> solved(found.size());
-    parallel_each(context, found.size(), 1, [&](std::size_t i) {
-        const PartHeights& part = found[i];
-        if (!part.joins) return;
-        const std::vector<Vec3> points = places_at(model, part.used);
+    const KnownHeights known(volume, lines);
+    std::vector<geometry::HarmonicValues> solved(parts.size());
+    parallel_each(context, parts.size(), 1, [&](std::size_t i) {
+        const std::vector<Triangle> triangles = facets_of(model, parts[i]);
         geometry::HarmonicProblem problem;
         problem.nine_digits = digits == Digits::nine;
-        problem.points = points;
-        problem.triangles = part.triangles;
-        problem.fixed = part.fixed;
-        problem.fixed_values = Eigen::Map<const Eigen::VectorXd>(
-            part.values.data(), static_cast<Eigen::Index>(part.values.size()));
-        solved[i] = geometry::solve_harmonic(problem, context);
+        problem.points = model.points;
+        problem.triangles = triangles;
+        if (known.fix(problem)) solved[i] = geometry::solve_on_facets(problem, context);
     });
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        if (!found[i].joins) continue;
-        for (std::size_t p = 0; p < found[i].used.size(); ++p)
-            heights[index(found[i].used[p])] = solved[i](static_cast<Eigen::Index>(p), 0);
-    }
+    std::vector<double> heights(model.points.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const geometry::HarmonicValues& part : solved)
+        for (std::size_t p = 0; p < part.points.size(); ++p)
+            heights[index(part.points[p])] = part.values(static_cast<Eigen::Index>(p), 0);
     return heights;
 }
 

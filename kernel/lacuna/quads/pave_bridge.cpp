@@ -9,7 +9,7 @@
 #include <deque>
 #include <queue>
 #include <tuple>
-#include <unordered_set>
+#include <unordered_map>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -132,16 +132,17 @@ private:
     std::optional<double> end_cost_at(std::size_t loop, std::size_t i, const Vec2& along)
     {
         const Cycle& own = loops_[loop];
-        Corner corner{i, angles_[loop][i], 0};
-        if (met_.contains(own[i])) {
-            const auto now = corner_now(loop, own[i], along);
-            if (!now) return std::nullopt;
-            corner = *now;
-        } else {
-            corner.part = turn_between(partial_.at(own[(i + 1) % own.size()]) - partial_.at(own[i]), along);
-        }
-        if (corner.part >= corner.angle) return std::nullopt;
-        return end_cost(corner.angle, corner.part, partial_.weights);
+        const Vec2& p = partial_.at(own[i]);
+        double angle = angles_[loop][i],
+               part = turn_between(partial_.at(own[i + 1 == own.size() ? 0 : i + 1]) - p, along);
+        if (const auto divided = corners_.find(own[i]); divided != corners_.end())
+            for (const auto& [last, next] : divided->second) {
+                angle = turn_between(partial_.at(next) - p, partial_.at(last) - p);
+                part = turn_between(partial_.at(next) - p, along);
+                if (part < angle) break;
+            }
+        if (part >= angle) return std::nullopt;
+        return end_cost(angle, part, partial_.weights);
     }
 
     std::optional<Bridge> best_between(std::size_t a, std::size_t b)
@@ -174,23 +175,18 @@ private:
             place = {i, j};
         };
         const std::size_t n = one.size(), m = two.size(), step_n = stride_of(n), step_m = stride_of(m);
-        // First find one line among the shortest ones. Its cost limits the lengths that are worth checking.
+        // The shortest lines are tried first, until no shorter one is left than the cost of the best one.
         std::vector<std::tuple<double, std::size_t, std::size_t>> lines;
         for (std::size_t i = 0; i < n; i += step_n)
             for (std::size_t j = 0; j < m; j += step_m)
                 lines.emplace_back((partial_.at(two[j]) - partial_.at(one[i])).norm(), i, j);
         std::ranges::make_heap(lines, std::greater<>());
-        while (!lines.empty() && !best) {
+        while (!lines.empty() && !(best && std::get<0>(lines.front()) >= best->cost)) {
             std::ranges::pop_heap(lines, std::greater<>());
             consider(std::get<1>(lines.back()), std::get<2>(lines.back()));
             lines.pop_back();
         }
         if (!best) return std::nullopt;
-        const double most = best->cost;
-        best.reset();
-        for (std::size_t i = 0; i < n; i += step_n)
-            for (std::size_t j = 0; j < m; j += step_m)
-                if ((partial_.at(two[j]) - partial_.at(one[i])).norm() <= most) consider(i, j);
         const Cut found = place; // then try the nodes between those that were tried
         for (std::size_t i = 0; i <= 2 * step_n; ++i)
             for (std::size_t j = 0; j <= 2 * step_m; ++j)
@@ -208,7 +204,6 @@ private:
         if (!from || !to) return false;
         lines_.push_back({bridge.from, bridge.to});
         of_lines_.emplace_back(partial_, lines_.back());
-        met_.insert({bridge.from, bridge.to});
         join_cycles(bridge.a, bridge.b,
                     {from->at, to->at, static_cast<std::size_t>(std::max(1L, std::lround(wanted)))});
         return true;
@@ -246,9 +241,21 @@ private:
         const Cycle &one = cycles_[a], &two = cycles_[b];
         const Cycle line = nodes_along(partial_, one[cut.from], two[cut.to], cut.edges);
         if (cut.edges == 1) partial_.link(line.front(), line.back());
+        divide_corner(one, cut.from, line[1]);
+        divide_corner(two, cut.to, line[line.size() - 2]);
         cycles_[a] = join(one, two, cut, line);
         cycles_[b].clear();
         joined_.unite(a, b);
+    }
+
+    /// Divide a corner of a cycle by a line to node `to`.
+    void divide_corner(const Cycle& cycle, std::size_t at, Index to)
+    {
+        const std::size_t n = cycle.size();
+        const std::pair whole{cycle[(at + n - 1) % n], cycle[(at + 1) % n]};
+        auto& corners = corners_[cycle[at]];
+        std::erase(corners, whole);
+        corners.insert(corners.end(), {{whole.first, to}, {to, whole.second}});
     }
 
     PartialMesh& partial_;
@@ -260,7 +267,8 @@ private:
     std::vector<LoopSides> sides_;
     std::deque<Cycle> lines_; ///< the two end nodes of each line
     std::deque<LoopSides> of_lines_;
-    std::unordered_set<Index> met_; ///< nodes where lines end
+    /// At the nodes where lines end: the last and the next node at each of the corners.
+    std::unordered_map<Index, std::vector<std::pair<Index, Index>>> corners_;
     std::priority_queue<Bridge, std::vector<Bridge>, std::greater<>> waiting_;
 };
 

@@ -50,11 +50,10 @@ std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangl
 }
 
 /// The harmonic coordinate s with fixed values on the source rim only, and natural boundary conditions on the
-/// target rim. Its values there show how the walls themselves rotate from source to target. One row for each
-/// model point.
-Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangle>& facets,
-                                   const LinkingSurface& link, const std::vector<Index>& cut,
-                                   const RunContext& context)
+/// target rim. Its values there show how the walls themselves rotate from source to target.
+geometry::HarmonicValues natural_coordinate(const Model& model, const std::vector<Triangle>& facets,
+                                            const LinkingSurface& link, const std::vector<Index>& cut,
+                                            const RunContext& context)
 {
     geometry::HarmonicProblem problem;
     problem.points = model.points;
@@ -68,7 +67,7 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangl
     problem.corner_turns = geometry::turns_along(facets, cut);
     problem.period = Eigen::RowVectorXd::Ones(1);
     problem.least_energy = true;
-    return geometry::solve_harmonic(problem, context);
+    return geometry::solve_on_facets(problem, context);
 }
 
 Vec3 on_facets(const Model& model, const WallPosition& place)
@@ -117,17 +116,17 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
     const Model& model = volume.model;
     const std::vector<Triangle> facets = topology::facets_of(model, link.walls);
     const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
-    const Eigen::MatrixXd s = natural_coordinate(model, facets, link, cut, context);
+    const geometry::HarmonicValues s = natural_coordinate(model, facets, link, cut, context);
     // At each point of the target rim, take the difference between the point's share of the rim's length and
     // its coordinate s. The differences are averaged as angles on a circle.
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
     for (const ChainNode& p : chain_nodes(model, link.target)) {
-        const double off = kFullTurn * (p.at / length - s(p.point, 0));
+        const double off = kFullTurn * (p.at / length - s.at(p.point)[0]);
         sum += Vec2(std::cos(off), std::sin(off));
     }
     const double start = std::atan2(sum.y(), sum.x()) / kFullTurn;
-    return {(start - std::floor(start)) * length, s(cut.back(), 0)};
+    return {(start - std::floor(start)) * length, s.at(cut.back())[0]};
 }
 
 double target_coordinate(const LinkingSurface& link, double target_at)
@@ -163,7 +162,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         cut = shortest_way_up(model, facets, link, context);
         const double natural = link.branch
                                    ? *link.branch
-                                   : natural_coordinate(model, facets, link, cut, context)(cut.back(), 0);
+                                   : natural_coordinate(model, facets, link, cut, context).at(cut.back())[0];
         const auto end = std::ranges::find_if(high,
                                               [&](const ChainNode& p) { return p.point == cut.back(); });
         const double wanted = target_coordinate(link, end->at);
@@ -192,7 +191,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     problem.corner_turns = geometry::turns_along(facets, cut);
     problem.period = Eigen::RowVector2d(1, 0);
     check_cancelled(context);
-    const Eigen::MatrixXd strip = geometry::solve_harmonic(problem, context);
+    const geometry::HarmonicValues strip = geometry::solve_on_facets(problem, context);
     check_cancelled(context);
 
     // Give the strip the proportions of the walls in space. For a position just outside the strip, the
@@ -208,7 +207,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         double least = kInfinity, most = -least;
         for (std::size_t i = 0; i < 3; ++i) {
             const Index p = facets[t][i];
-            const Vec2& place = strip_.try_emplace(p, strip.row(p).transpose()).first->second;
+            const Vec2& place = strip_.try_emplace(p, strip.at(p).transpose()).first->second;
             corners[t][i] = place + Vec2(problem.corner_turns[t][i], 0);
             least = std::min(least, corners[t][i].x());
             most = std::max(most, corners[t][i].x());

@@ -31,7 +31,8 @@ FacetWalk::FacetWalk(std::span<const Vec3> points, std::span<const Triangle> tri
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index from = triangles[i][k], to = triangles[i][(k + 1) % 3];
-            for (const Index other : round.of(index(to))) {
+            const auto at_from = round.of(index(from)), at_to = round.of(index(to));
+            for (const Index other : at_from.size() < at_to.size() ? at_from : at_to) {
                 const Triangle& t = triangles[index(other)];
                 const bool reversed = (t[0] == to && t[1] == from) || (t[1] == to && t[2] == from) ||
                                       (t[2] == to && t[0] == from);
@@ -43,11 +44,24 @@ FacetWalk::FacetWalk(std::span<const Vec3> points, std::span<const Triangle> tri
         set_frame(i, {points[index(triangles[i][0])], points[index(triangles[i][1])],
                       points[index(triangles[i][2])]});
     }
+    // The normals at each point lie in a cone, whose axis and half angle bound the angles between them.
+    // Comparing normals in pairs would take the square of the number of facets at an apex.
+    std::vector<Vec3> axis(points.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (const Index corner : triangles[i]) axis[index(corner)] += frame_[i].normal;
+    for (Vec3& sum : axis) sum = sum.stableNormalized();
+    std::vector<double> cone(points.size(), 1); // cosine of the half angle; 0 if a facet has no normal
+    const auto cosine = [&](std::size_t i, Index corner) {
+        return std::min(1.0, axis[index(corner)].dot(frame_[i].normal));
+    };
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (const Index corner : triangles[i])
+            cone[index(corner)] = std::min(cone[index(corner)], cosine(i, corner));
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        double least = 1; // cosine of the largest angle to a neighbour
+        double least = 1; // lower bound of the cosine of the largest angle to a neighbour
         for (const Index corner : triangles[i]) {
-            for (const Index other : round.of(index(corner)))
-                least = std::min(least, frame_[i].normal.dot(frame_[index(other)].normal));
+            const double a = cosine(i, corner), b = cone[index(corner)];
+            least = std::min({least, b, a * b - std::sqrt((1 - a * a) * (1 - b * b))});
         }
         frame_[i].fold = least > 0 ? std::sqrt((1 - least) / (1 + least)) : 1;
     }

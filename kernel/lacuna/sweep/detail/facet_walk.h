@@ -46,8 +46,8 @@ private:
         /// Altitude of each corner over the opposite side; zero: the facet is too thin.
         Vec3 altitude = Vec3::Zero();
         double rounding = 0; ///< tolerance of distances [model length]
-        /// Tangent of half the largest angle between this facet's normal and the normals of facets at its
-        /// corners.
+        /// Upper bound of the tangent of half the angle between this facet's normal and the normals of facets
+        /// at its corners.
         double fold = 1;
     };
     void set_frame(std::size_t facet, const std::array<Vec3, 3>& corners);
