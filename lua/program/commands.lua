@@ -115,8 +115,9 @@ end
 -- The calls that take a key; all others are of volume:sweep.
 local calls = {
   load = words "tolerance feature_angle keep_mesh keep_noise scale unit cad_seconds cad_megabytes",
-  open_volume = words "source target walls faces reading full_turn along fill_to class name material",
-  write = words "with version binary groups quality element orientation renumber first_node first_cell",
+  open_volume = words "source target walls faces reading full_turn along fill_to class name material glued",
+  write = words([[version binary groups quality element orientation with without renumber first_node
+    first_cell gmsh_options interfaces partitions ghosts]]),
 }
 
 local function call_of(key)

@@ -291,6 +291,20 @@ check.that(check.exists(folder .. "/case/constant/polyMesh/owner"))
 expect({ "fill", "good.msh", "again.vtu", "siez=0.5" }, 1, {}, { "siez", "size" })
 expect({ "fill", "good.msh", "again.vtu", "layers={3" }, 1, {}, { "layers={3" })
 expect({ "fill", "good.msh" }, 2, {}, { "IN OUT" })
+-- Every option of the calls behind `fill` goes to its call, which is the one that refuses a bad value.
+local here = arg[0]:match("^(.*/)")
+local api = assert(io.open(here .. "../../lua/lacuna.d.lua")):read "a"
+local source = assert(io.open(here .. "../../lua/program/commands.lua")):read "a"
+for call, class in pairs { load = "LoadOptions", open_volume = "Roles", write = "WriteOptions" } do
+  local keys = source:match("\n  " .. call .. " = words[ (%[\"]*([^\"%]]*)")
+  local listed = {}
+  for key in keys:gmatch "[%w_]+" do listed[key] = true end
+  local fields = api:match("%-%-%-@class lacuna%." .. class .. "\n(.-)\n\n")
+  for key in fields:gmatch "@field ([%w_]+)" do
+    -- `without` of load and of write are the same word; write has it.
+    check.that(listed[key] or (call == "load" and key == "without"), call .. " " .. key)
+  end
+end
 local faces = json_of { "info", "--json", "good.msh" }
 check.that(faces:find('"faces": [{', 1, true) and faces:find('"area": ', 1, true), faces)
 

@@ -180,18 +180,17 @@ std::vector<std::vector<FaceId>> parts_of_end(const OpenVolume& volume, Role end
                                               const std::vector<double>& turns)
 {
     constexpr double kUpright = 90 - kCreaseAngle;
+    const std::vector<FaceId> faces = volume.faces(end);
+    geometry::UnionFind joined(volume.model.faces.size());
+    for (const FaceId face : faces)
+        for (const EdgeUse& use : uses_of(volume.model[face]))
+            for (const FaceUse& user : volume.model.uses_of_edge(use.edge))
+                if (volume.role[user.face.index()] == end && turns[use.edge.index()] > -kUpright)
+                    joined.unite_least(face.index(), user.face.index());
+    std::map<std::size_t, std::vector<FaceId>> by_first;
+    for (const FaceId face : faces) by_first[joined.find(face.index())].push_back(face);
     std::vector<std::vector<FaceId>> parts;
-    for (const std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(end))) {
-        geometry::UnionFind joined(volume.model.faces.size());
-        for (const FaceId face : part)
-            for (const EdgeUse& use : uses_of(volume.model[face]))
-                for (const FaceUse& user : volume.model.uses_of_edge(use.edge))
-                    if (volume.role[user.face.index()] == end && turns[use.edge.index()] > -kUpright)
-                        joined.unite_least(face.index(), user.face.index());
-        std::map<std::size_t, std::vector<FaceId>> own;
-        for (const FaceId face : part) own[joined.find(face.index())].push_back(face);
-        for (auto& [first, faces] : own) parts.push_back(std::move(faces));
-    }
+    for (auto& [first, part] : by_first) parts.push_back(std::move(part));
     return parts;
 }
 
@@ -295,12 +294,12 @@ void split_round_rims(OpenVolume& volume, RoundsOf of, const RunContext& context
     // Here all edges count as smooth: to compute their turns would cost more than to find that there are no
     // rounds.
     const std::vector<double> smooth(volume.model.edges.size(), 0);
-    const auto parts = [&](Role end) { return parts_of_end(volume, end, smooth); };
-    const auto has_rounds = [&](const std::vector<FaceId>& part) {
-        return RoundRims(volume, part, smooth, of, context).has_rounds();
+    const auto has_rounds = [&](Role end) {
+        return std::ranges::any_of(parts_of_end(volume, end, smooth), [&](const std::vector<FaceId>& part) {
+            return RoundRims(volume, part, smooth, of, context).has_rounds();
+        });
     };
-    if (std::ranges::any_of(parts(Role::source), has_rounds) ||
-        std::ranges::any_of(parts(Role::target), has_rounds)) {
+    if (has_rounds(Role::source) || has_rounds(Role::target)) {
         face_away(volume, context);
         std::vector<double> turns = concave_turns(volume, context);
         for (const Role end : {Role::source, Role::target})

@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 #include <set>
 
 namespace lacuna::closure {
@@ -255,91 +256,113 @@ geometry::Triangulation triangulate_unrolled(const Outline& outline, double step
     return geometry::triangulate(outline.flat, outline.loops, fine, context);
 }
 
-/// The wall between two rims with holes, as one face without void edges. The outline is cut open between two
-/// points of the rims, as far from the holes as possible. @return  empty if the outline crosses itself
-std::optional<VoidFilling> fill_round_wall(const Model& model, const RoundRim& from,
-                                           const std::vector<EdgeUse>& a, const std::vector<EdgeUse>& b,
-                                           const std::vector<Loop>& holes, const RunContext& context)
+/// A closed chain of points, the first one repeated at the end.
+struct Chain {
+    std::vector<Vec3> places;
+    std::vector<Index> points;
+};
+
+/// The chain of a loop, beginning at the point at which `cost` is least.
+template <class Cost>
+Chain chain_from(const Model& model, const std::vector<EdgeUse>& loop, const Cost& cost)
 {
+    Chain chain{loop_places(model, loop), loop_points(model, loop)};
+    const auto first = std::ranges::min_element(chain.places, {}, cost) - chain.places.begin();
+    std::ranges::rotate(chain.places, chain.places.begin() + first);
+    std::ranges::rotate(chain.points, chain.points.begin() + first);
+    chain.places.push_back(chain.places.front());
+    chain.points.push_back(chain.points.front());
+    return chain;
+}
+
+/// A round wall that is cut open and unrolled: angle times radius, and height.
+struct UnrolledWall {
+    Outline outline;
+    std::vector<Vec2> cut;      ///< inner points of the cut, from the foot to the top
+    std::size_t foot_count = 0; ///< number of the outline's points on the foot, which come first
+    std::size_t last = 0;       ///< the last point of the outline that is not on a hole
+    double step = 0;            ///< mean side of the foot [model length]
+};
+
+/// Unroll the wall between two rims. It is cut open between two points of the rims, as far from the holes as
+/// possible. @return  empty if the outline crosses itself
+std::optional<UnrolledWall> unroll_wall(const Model& model, const RoundRim& from,
+                                        const std::vector<EdgeUse>& a, const std::vector<EdgeUse>& b,
+                                        const std::vector<Loop>& holes)
+{
+    const double whole = 2 * std::numbers::pi;
     const auto angle = [&](const Vec3& p) { return angle_at(from.base, p); };
-    const auto height = [&](const Vec3& p) { return geometry::height(from.base, p); };
-    struct Chain {
-        std::vector<Vec3> places;
-        std::vector<Index> points;
+    const auto unroll = [&](const std::vector<Vec3>& places, double& turn) {
+        std::vector<Vec2> flat;
+        for (const Vec3& p : places) {
+            turn += turn_between(turn, angle(p));
+            flat.emplace_back(turn * from.radius, geometry::height(from.base, p));
+        }
+        return flat;
     };
-    Chain foot{loop_places(model, a), loop_points(model, a)};
-    Chain top{loop_places(model, b), loop_points(model, b)};
-    const auto begin_at = [](Chain& chain, const auto& distance) {
-        const auto first = std::ranges::min_element(chain.places, {}, distance) - chain.places.begin();
-        std::ranges::rotate(chain.places, chain.places.begin() + first);
-        std::ranges::rotate(chain.points, chain.points.begin() + first);
-        chain.places.push_back(chain.places.front());
-        chain.points.push_back(chain.points.front());
-    };
-    begin_at(foot, [&](const Vec3& p) {
+    const Chain foot = chain_from(model, a, [&](const Vec3& p) {
         double least = std::numbers::pi;
         for (const Loop& hole : holes)
             for (const Vec3& q : loop_places(model, hole.uses))
                 least = std::min(least, std::abs(turn_between(angle(p), angle(q))));
         return -least;
     });
-    begin_at(top,
-             [&](const Vec3& p) { return std::abs(turn_between(angle(foot.places.front()), angle(p))); });
+    Chain top = chain_from(model, b, [&](const Vec3& p) {
+        return std::abs(turn_between(angle(foot.places.front()), angle(p)));
+    });
     std::ranges::reverse(top.places);
     std::ranges::reverse(top.points);
 
-    std::vector<Vec2> flat;
+    UnrolledWall wall;
+    wall.foot_count = foot.places.size();
+    wall.step = whole * from.radius / static_cast<double>(foot.places.size() - 1);
     double turn = angle(foot.places.front());
-    const auto unroll = [&](const Vec3& p) {
-        turn += turn_between(turn, angle(p));
-        flat.emplace_back(turn * from.radius, height(p));
-    };
-    for (const Vec3& p : foot.places) unroll(p);
-    const double step = 2 * std::numbers::pi * from.radius / static_cast<double>(foot.places.size() - 1);
+    std::vector<Vec2> flat = unroll(foot.places, turn);
+    const std::vector<Vec2> above = unroll(top.places, turn);
+    const Vec2 start = flat.back(), round = flat.front() - start;
+    const auto cuts = static_cast<std::size_t>((top.places.front() - foot.places.front()).norm() / wall.step);
+    for (std::size_t k = 1; k <= cuts; ++k)
+        wall.cut.push_back(start +
+                           static_cast<double>(k) / static_cast<double>(cuts + 1) * (above.front() - start));
+    flat.insert(flat.end(), wall.cut.begin(), wall.cut.end());
+    flat.insert(flat.end(), above.begin(), above.end());
+    for (const Vec2& p : wall.cut | std::views::reverse) flat.push_back(p + round);
     std::vector<Index> points = foot.points;
-    const Vec3 seam = top.places.front() - foot.places.front();
-    const auto cuts = static_cast<std::size_t>(seam.norm() / step);
-    std::vector<Vec2> up;
-    const double lean = turn_between(turn, angle(top.places.front())) * from.radius;
-    for (std::size_t k = 1; k <= cuts; ++k) {
-        const double share = static_cast<double>(k) / static_cast<double>(cuts + 1);
-        up.push_back(flat.back() + share * Vec2(lean, height(top.places.front()) - flat.back().y()));
-    }
-    const Vec2 round = flat.front() - flat.back();
-    flat.insert(flat.end(), up.begin(), up.end());
-    for (const Vec3& p : top.places) unroll(p);
-    for (std::size_t k = cuts; k > 0; --k) flat.push_back(up[k - 1] + round);
     points.resize(points.size() + cuts);
     points.insert(points.end(), top.points.begin(), top.points.end());
     points.resize(points.size() + cuts);
-
-    Outline outline;
-    outline.add_loop(flat, points);
+    wall.last = flat.size() - 1;
+    wall.outline.add_loop(flat, points);
     for (const Loop& hole : holes) {
-        std::vector<Vec2> places;
         turn = 0;
-        for (const Vec3& p : loop_places(model, hole.uses)) {
-            turn += turn_between(turn, angle(p));
-            places.emplace_back(turn * from.radius, height(p));
-        }
-        if (!shift_inside(places, flat, 2 * std::numbers::pi * from.radius)) return std::nullopt;
-        outline.add_loop(places, loop_points(model, hole.uses));
+        std::vector<Vec2> places = unroll(loop_places(model, hole.uses), turn);
+        if (!shift_inside(places, flat, whole * from.radius)) return std::nullopt;
+        wall.outline.add_loop(places, loop_points(model, hole.uses));
     }
-    if (geometry::find_crossing(outline.flat, outline.loops)) return std::nullopt;
-    const geometry::Triangulation net = triangulate_unrolled(outline, step, context);
+    if (geometry::find_crossing(wall.outline.flat, wall.outline.loops)) return std::nullopt;
+    return wall;
+}
+
+/// The wall between two rims with holes, as one face without void edges.
+/// @return  empty if the unrolled wall crosses itself or a hole
+std::optional<VoidFilling> fill_round_wall(const Model& model, const RoundRim& from,
+                                           const std::vector<EdgeUse>& a, const std::vector<EdgeUse>& b,
+                                           const std::vector<Loop>& holes, const RunContext& context)
+{
+    std::optional<UnrolledWall> wall = unroll_wall(model, from, a, b, holes);
+    if (!wall) return std::nullopt;
+    Outline& outline = wall->outline;
+    const geometry::Triangulation net = triangulate_unrolled(outline, wall->step, context);
     const auto lift = [&](const Vec2& p) -> Vec3 {
         const double at = p.x() / from.radius;
         return geometry::from_plane(from.base, from.radius * Vec2(std::cos(at), std::sin(at)), p.y());
     };
     // The points of the cut follow those inside. Each is listed twice in the outline.
-    const std::size_t first = foot.points.size(), last = flat.size() - 1;
-    for (std::size_t k = 0; k < cuts; ++k) {
-        const auto point = static_cast<Index>(model.points.size() + net.points.size() - outline.flat.size() +
-                                              k);
-        outline.model_point[first + k] = outline.model_point[last - k] = point;
-    }
+    for (std::size_t k = 0; k < wall->cut.size(); ++k)
+        outline.model_point[wall->foot_count + k] = outline.model_point[wall->last - k] = static_cast<Index>(
+            model.points.size() + net.points.size() - outline.flat.size() + k);
     VoidFilling result = filling_of(model, outline, net, [&](std::size_t i) { return lift(net.points[i]); });
-    for (const Vec2& p : up) result.points.push_back(lift(p));
+    for (const Vec2& p : wall->cut) result.points.push_back(lift(p));
     result.loops = {{a}, {closure::reversed({b})}};
     result.loops.insert(result.loops.end(), holes.begin(), holes.end());
     result.geometry = Geometry::transfinite;

@@ -74,9 +74,9 @@ std::optional<std::pair<std::size_t, std::size_t>> first_crossed(const Model& mo
             if (other != facet) winding += outward(other).dot(out) > 0 ? 1 : -1;
             return true;
         });
+        // The ray settles most facets in O(log n). It is not enough: a ray through an edge meets both facets,
+        // and facets of a folded face lie in one place, but neither is a crossing.
         if (winding == 0) return false;
-        // A ray through an edge meets both facets, and facets of a folded face lie in one place: neither is a
-        // crossing.
         const Vec3 near = model.tolerance * out;
         const auto beyond = std::lround(tree.winding_number(middle + near));
         return beyond != 0 && std::lround(tree.winding_number(middle - near)) == beyond + 1;
