@@ -2,11 +2,9 @@
 // Lua raises errors by longjmp and C++ by exceptions; neither may pass through frames of the other. So code
 // that may raise a Lua error runs in a protected call and owns no objects with destructors. Its results are
 // left on Lua's stack, from where C++ takes them with calls that do not raise.
-#include <lacuna/interpreter.h>
+#include "host/interpreter_state.h"
 
-#include "bindings/bind_buffer.h"
 #include "bindings/box.h"
-#include "bindings/lacuna_lua.h"
 #include "host/sandbox.h"
 
 #include <algorithm>
@@ -16,7 +14,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <new>
 #include <utility>
 
@@ -42,13 +39,6 @@ private:
     }
     locale_t before_;
 };
-
-std::string text_at(lua_State* L, int index)
-{
-    std::size_t length = 0;
-    const char* text = lua_type(L, index) == LUA_TSTRING ? lua_tolstring(L, index, &length) : nullptr;
-    return text ? std::string(text, length) : std::string();
-}
 
 // --- inside protected calls -----------------------------------------------------------------------------
 
@@ -89,130 +79,7 @@ std::vector<NamedEntity> entities_at(lua_State* L, int index)
     return entities;
 }
 
-/// Push the value of a path. With `owner`, push the table that contains the last part, and the last part as a
-/// key. May raise a Lua error.
-void push_path(lua_State* L, const char* path, bool owner)
-{
-    lua_pushglobaltable(L);
-    for (const char* at = path;;) {
-        const char* const end = at + std::strcspn(at, ".");
-        if (end == at) lua::fail_as(L, "lua.no_value", "the path '%s' has an empty part", path);
-        lua_Integer number = 0;
-        const auto [read, error] = std::from_chars(at, end, number);
-        if (error == std::errc() && read == end)
-            lua_pushinteger(L, number);
-        else
-            lua_pushlstring(L, at, static_cast<std::size_t>(end - at));
-        if (*end == '\0' && owner) return;
-        lua_gettable(L, -2);
-        lua_remove(L, -2);
-        if (*end == '\0') return;
-        if (!lua_istable(L, -1)) {
-            if (luaL_getmetafield(L, -1, "__index") == LUA_TNIL) {
-                const char* found = lua::push_found(L, -1);
-                lua::fail_as(L, "lua.no_value", "'%s' in the path '%s' is %s, which has no fields",
-                             lua_pushlstring(L, path, static_cast<std::size_t>(end - path)), path, found);
-            }
-            lua_pop(L, 1);
-        }
-        at = end + 1;
-    }
-}
-
 } // namespace
-
-struct Interpreter::State {
-    /// A call of the host while no recipe runs: restores the height of Lua's stack on every exit.
-    /// @throw InvalidInput "lua.busy"  a recipe runs.
-    class Visit {
-    public:
-        explicit Visit(const State& state) : lua_(state.lua), top_(lua_gettop(lua_)) { state.check_free(); }
-        ~Visit() { lua_settop(lua_, top_); }
-        Visit(const Visit&) = delete;
-        Visit& operator=(const Visit&) = delete;
-
-    private:
-        lua_State* lua_;
-        int top_;
-    };
-
-    enum class Why { nothing, cancelled, instructions };
-
-    InterpreterOptions options;
-    lua::Host host;
-    std::atomic<bool> stop{false};
-    Why why = Why::nothing;
-    std::uint64_t steps = 0;
-    bool running = false;
-    std::exception_ptr thrown; ///< exception thrown by a callback
-    std::size_t used = 0;      ///< [bytes]
-    std::string traceback;
-    lua_State* lua = nullptr;
-
-    explicit State(InterpreterOptions asked);
-    ~State()
-    {
-        if (lua) lua_close(lua);
-    }
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
-
-    static State& of(lua_State* L) { return **static_cast<State**>(lua_getextraspace(L)); }
-    static void* allocate(void* state, void* block, std::size_t old_size, std::size_t new_size);
-    static void hook(lua_State* L, lua_Debug*);
-    static int handle_message(lua_State* L);
-    static int open(lua_State* L);
-    static int print(lua_State* L);
-    static int call_host(lua_State* L);
-
-    /// Run a callback. An exception is stored, and stops the run.
-    template <class Body>
-    void call_back(Body&& body) noexcept
-    {
-        try {
-            body();
-        } catch (...) {
-            if (!thrown) thrown = std::current_exception();
-            stop = true;
-        }
-    }
-    void ask_host() noexcept
-    {
-        if (options.cancelled && !stop)
-            call_back([&] {
-                if (options.cancelled()) stop = true;
-            });
-    }
-
-    /// Begin a call. If it is a run, a pending request to stop ends it at once.
-    void start(bool is_run);
-    void end() noexcept;
-    [[noreturn]] void fail(int status);
-    void call(int arguments, int results, bool is_run = true);
-    Value value_at(int index) const;
-
-    /// Run `work(L)` in a protected call; the values that it pushes stay on the stack.
-    template <class Work>
-    void protect(const Work& work)
-    {
-        static_assert(std::is_trivially_destructible_v<Work>, "capture by reference");
-        if (!lua_checkstack(lua, 4)) throw std::bad_alloc();
-        lua_pushcfunction(lua, [](lua_State* L) {
-            const auto& body = *static_cast<const Work*>(lua_touserdata(L, 1));
-            lua_settop(L, 0);
-            body(L);
-            return lua_gettop(L);
-        });
-        lua_pushlightuserdata(lua, const_cast<Work*>(&work));
-        call(1, LUA_MULTRET, false);
-    }
-    void check_free() const
-    {
-        if (running)
-            throw InvalidInput(Message("lua.busy", "this interpreter is running a recipe")
-                                   .remedy("call it after the recipe has ended"));
-    }
-};
 
 void* Interpreter::State::allocate(void* state, void* block, std::size_t old_size, std::size_t new_size)
 {
@@ -533,130 +400,6 @@ bool Interpreter::words_used()
     const State::Visit visit(self);
     self.protect([](lua_State* L) { lua_getfield(L, LUA_REGISTRYINDEX, lua::kUsedParams); });
     return lua_toboolean(self.lua, -1) != 0;
-}
-
-void Interpreter::set(const std::string& path, const Value& value)
-{
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) {
-        push_path(L, path.c_str(), true);
-        if (const auto* boolean = std::get_if<bool>(&value))
-            lua_pushboolean(L, *boolean);
-        else if (const auto* integer = std::get_if<std::int64_t>(&value))
-            lua_pushinteger(L, *integer);
-        else if (const auto* number = std::get_if<double>(&value))
-            lua_pushnumber(L, *number);
-        else if (const auto* text = std::get_if<std::string>(&value))
-            lua_pushlstring(L, text->data(), text->size());
-        else
-            lua_pushnil(L);
-        lua_settable(L, -3);
-    });
-}
-
-void Interpreter::set_numbers(const std::string& path, const double* numbers, std::size_t count)
-{
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) {
-        push_path(L, path.c_str(), true);
-        const std::size_t room = std::min<std::size_t>(count, std::numeric_limits<int>::max());
-        lua_createtable(L, static_cast<int>(room), 0);
-        for (std::size_t i = 0; i < count; ++i) {
-            lua_pushnumber(L, numbers[i]);
-            lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
-        }
-        lua_settable(L, -3);
-    });
-}
-
-void Interpreter::set_function(const std::string& path, HostFunction function, void* user)
-{
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) {
-        push_path(L, path.c_str(), true);
-        lua_pushlightuserdata(L, reinterpret_cast<void*>(function));
-        lua_pushlightuserdata(L, user);
-        lua_pushstring(L, path.c_str());
-        lua_pushcclosure(L, State::call_host, 3);
-        lua_settable(L, -3);
-    });
-}
-
-Value Interpreter::get(const std::string& path)
-{
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) { push_path(L, path.c_str(), false); });
-    return self.value_at(-1);
-}
-
-std::string Interpreter::type_of(const std::string& path)
-{
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) {
-        push_path(L, path.c_str(), false);
-        if (luaL_getmetafield(L, -1, "__name") != LUA_TSTRING) lua_pushstring(L, luaL_typename(L, 1));
-    });
-    return text_at(self.lua, -1);
-}
-
-BufferView Interpreter::buffer(const std::string& path)
-{
-    State& self = *state_;
-    const State::Visit visit(self);
-    BufferView view;
-    self.protect([&](lua_State* L) {
-        push_path(L, path.c_str(), false);
-        const auto* box = lua::test_box<lua::BufferState>(L, -1);
-        if (!box || !*box)
-            lua::fail_as(L, "lua.no_value", "'%s' must be a Buffer, found %s", path.c_str(),
-                         lua::push_found(L, -1));
-        const lua::BufferState& found = **box;
-        view.type = found.is_real() ? BufferView::Type::float64 : BufferView::Type::int32;
-        view.data = found.data();
-        view.rows = found.rows();
-        view.columns = found.columns;
-    });
-    return view;
-}
-
-std::vector<double> Interpreter::get_numbers(const std::string& path)
-{
-    State& self = *state_;
-    if (type_of(path) == "Buffer") {
-        const BufferView view = buffer(path);
-        std::vector<double> numbers(view.rows * view.columns);
-        if (view.type == BufferView::Type::float64)
-            std::copy_n(static_cast<const double*>(view.data), numbers.size(), numbers.begin());
-        else
-            std::copy_n(static_cast<const std::int32_t*>(view.data), numbers.size(), numbers.begin());
-        return numbers;
-    }
-    const State::Visit visit(self);
-    std::size_t count = 0;
-    self.protect([&](lua_State* L) {
-        push_path(L, path.c_str(), false);
-        if (!lua_istable(L, -1))
-            lua::fail_as(L, "lua.no_value", "'%s' must be an array of numbers or a Buffer, found %s",
-                         path.c_str(), lua::push_found(L, -1));
-        count = lua_rawlen(L, -1);
-    });
-    std::vector<double> numbers(count);
-    self.protect([&](lua_State* L) {
-        push_path(L, path.c_str(), false);
-        for (std::size_t i = 0; i < count; ++i) {
-            if (lua_rawgeti(L, 1, static_cast<lua_Integer>(i) + 1) != LUA_TNUMBER)
-                lua::fail_as(L, "lua.no_value", "'%s' must be an array of numbers, found %s at %I",
-                             path.c_str(), lua::push_found(L, -1), static_cast<lua_Integer>(i) + 1);
-            numbers[i] = lua_tonumber(L, -1);
-            lua_settop(L, 1);
-        }
-    });
-    return numbers;
 }
 
 } // namespace lacuna

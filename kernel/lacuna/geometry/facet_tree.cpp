@@ -20,11 +20,6 @@ using Corners = std::array<Vec3, 3>;
 
 /// Limit on the triangles in a leaf.
 constexpr std::uint32_t kLeaf = 4;
-/// Subtrees with fewer triangles are built without a check for cancellation. A search for overlaps checks for
-/// cancellation each time that it has compared this number of pairs of boxes. Both take a few milliseconds.
-constexpr std::uint32_t kPolled = 16384;
-/// Subtrees with fewer triangles are built on one thread, because that takes only 1 ms.
-constexpr std::uint32_t kShared = 4096;
 /// Each level halves the triangles, so 2^31 triangles need at most 31 levels; a depth-first traversal stores
 /// one sibling per level.
 constexpr std::size_t kMaxDepth = 64;
@@ -203,7 +198,7 @@ FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> tri
 std::uint32_t FacetTree::build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
                                int threads, const RunContext& context)
 {
-    if (end - begin > kPolled) check_cancelled(context);
+    if (end - begin > kBetweenPolls) check_cancelled(context);
     Node& node = node_[self];
     node.begin = begin;
     node.end = end;
@@ -215,7 +210,7 @@ std::uint32_t FacetTree::build(const Parts& parts, std::uint32_t self, std::uint
     halve(ids, parts.centre);
     const std::uint32_t middle = begin + (end - begin) / 2;
     std::uint32_t behind = 0;
-    if (threads > 1 && end - begin > kShared) {
+    if (threads > 1 && end - begin > kBetweenPolls) { // smaller subtrees take less than 1 ms
         node.right = self + 1 + node_count(middle - begin);
         RunContext two = context;
         two.threads = 2;
@@ -290,7 +285,7 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
     std::size_t depth = 0;
     stack[depth++] = {0, 0};
     for (std::size_t steps = 0; depth > 0; ++steps) {
-        if (steps % kPolled == 0) check_cancelled(context);
+        if (steps % kBetweenPolls == 0) check_cancelled(context);
         const auto [ia, ib] = stack[--depth];
         const Node& a = node_[ia];
         const Node& b = other.node_[ib];

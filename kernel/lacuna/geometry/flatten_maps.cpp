@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -26,9 +27,6 @@ using Eigen::Matrix2d;
 
 /// √ε: triangles that are thinner, relative to their longest side, are degenerate.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
-
-/// Limit on the iterations of a map.
-constexpr int kMostIterations = 200;
 
 template <class Solver>
 void check_solved(const Solver& solver)
@@ -224,7 +222,7 @@ Positions as_rigid_as_possible(const Facets& facets, Positions positions, double
 
     Eigen::MatrixX2d right(size, 2);
     double before = kInfinity;
-    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    for (int iteration = 0; iteration < kMostRounds; ++iteration) {
         double energy = 0;
         right.setZero();
         for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
@@ -349,7 +347,7 @@ Positions injective(const Facets& facets, Positions positions, double settled)
     double energy = symmetric_dirichlet(facets, positions);
     if (!std::isfinite(energy)) return positions;
     Proxy proxy(facets);
-    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    for (int iteration = 0; iteration < kMostRounds; ++iteration) {
         Positions step = proxy.minimiser(positions);
         for (std::size_t i = 0; i < step.size(); ++i) step[i] -= positions[i];
         // Start at 80 % of the step to the first flip, and halve until the energy decreases.

@@ -2,6 +2,7 @@
 #include <lacuna/geometry/shared/harmonic.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/detail/multigrid.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -268,9 +269,6 @@ Eigen::MatrixXd solve_directly(const std::vector<Eigen::Triplet<double>>& entrie
 std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, std::span<const Index> role,
                                                std::span<const Weight> weights)
 {
-    // Allowed error of a mean, relative to the range of the fixed values. Errors add up with the distance
-    // from the fixed points: at a hundred layers, nine digits are still correct.
-    constexpr double kOff = 1e-13;
     const Eigen::Index columns = problem.fixed_values.cols();
     if (columns > 3 || !problem.corner_turns.empty()) return std::nullopt;
     std::vector<Vec3> from, to;
@@ -282,7 +280,7 @@ std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, s
     const AffineFit fit = fit_affine(from, to);
     const Eigen::RowVectorXd range = problem.fixed_values.colwise().maxCoeff() -
                                      problem.fixed_values.colwise().minCoeff();
-    const double off = kOff * range.maxCoeff();
+    const double off = kRoundoff * range.maxCoeff();
     if (!(fit.max_residual <= off)) return std::nullopt;
     std::vector<Vec3> values;
     for (const Vec3& point : problem.points) values.push_back(fit(point));

@@ -13,7 +13,6 @@ namespace lacuna::geometry {
 
 namespace {
 
-constexpr int kHalvings = 30; ///< halvings of a step before the search stops: 2^-30 of a step is negligible
 /// Required fraction of the predicted decrease (Armijo condition); the usual value.
 constexpr double kEnough = 1e-4;
 
@@ -58,7 +57,7 @@ Eigen::VectorXd minimise(const Function& function, Eigen::VectorXd x, const Mini
         double length = memory.empty() ? 0.1 * std::abs(value) / -slope : 1;
         double found = value;
         bool won = false;
-        for (int half = 0; half < kHalvings && !won; ++half) {
+        for (const double least = kSamePlace * length; length > least && !won;) {
             tried = x + length * direction;
             found = function(tried, next_gradient);
             won = std::isfinite(found) && found <= value + kEnough * length * slope;

@@ -10,10 +10,6 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Rows of facets between two levels, if the twist or scale of the section is not linear in the height. With
-/// 32 rows, the chords of a twist that is one wave of a sine deviate by 0.5 % of the wave's height.
-constexpr int kUnevenRows = 32;
-
 } // namespace
 
 MotionPointer part_of_motion(const MotionPointer& whole, double from, double to)
@@ -74,8 +70,10 @@ Motion distorted(Motion motion, const Vec3& centre, const Vec3& direction, const
     for (std::size_t i = 1; i < motion.levels.size(); ++i) {
         double part = by.most_twist * (motion.levels[i] - motion.levels[i - 1]);
         // Rows are needed where points do not move along straight lines. This is so if the section is scaled
-        // along a curve or after a corner, or if twist or scale are not linear in the height.
-        if (!by.even || (by.scale && curved)) part = std::max(part, kUnevenRows * kFullTurn / kRowsPerTurn);
+        // along a curve or after a corner, or if twist or scale are not linear in the height. As many rows as
+        // for a full turn are enough: the chords of a twist that is one wave of a sine deviate by 0.1 % of
+        // its height.
+        if (!by.even || (by.scale && curved)) part = std::max(part, kFullTurn);
         turn.push_back(part);
     }
     divide_turns(motion, turn);

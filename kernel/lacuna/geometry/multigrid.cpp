@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/detail/multigrid.h>
 
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/types.h>
 
 #include <algorithm>
@@ -26,8 +27,6 @@ constexpr double kLeastGain = 0.7;
 /// Relative residual at which the iteration stops. Measured on walls of 10,000 to 700,000 facets: the error
 /// of values in [0, 1] is then below 1e-9.
 constexpr double kSettled = 1e-11;
-/// Limit on the number of iterations; five to eight are usual.
-constexpr int kMostSteps = 60;
 
 /// Assign each row to an aggregate; each aggregate becomes a row of the next level. Rows without strong
 /// couplings get -1, because the Gauss-Seidel sweeps alone solve them.
@@ -209,7 +208,7 @@ bool Multigrid::solve(const Vector& right, Vector& x, const RunContext& context)
     Vector residual = right, direction = right, other, near_direction, near_residual, change;
     const Vector shadow = right;
     double product = shadow.dot(residual);
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostRounds; ++step) { // five to eight are usual
         check_cancelled(context);
         cycle(0, direction, near_direction);
         change = matrix * near_direction;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/shared/sparse_factor.h>
 
+#include <lacuna/core/shared/constants.h>
+
 #include <Eigen/OrderingMethods>
 
 #include <algorithm>
@@ -13,9 +15,6 @@ namespace lacuna::geometry {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
-
-/// Number of multiplications between checks for cancelling.
-constexpr long kWorkBetweenPolls = 100'000;
 
 /// For each row of L, the columns in which it has entries, found with the elimination tree.
 class RowPattern {
@@ -119,7 +118,7 @@ SparseFactor::SparseFactor(const Matrix& lower, const RunContext& context)
             good_ = false;
             return;
         }
-        if (work < kWorkBetweenPolls) continue;
+        if (work < long{kBetweenPolls}) continue;
         check_cancelled(context);
         work = 0;
     }

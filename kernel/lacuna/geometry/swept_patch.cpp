@@ -2,6 +2,7 @@
 #include <lacuna/geometry/shared/swept_patch.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/transfinite.h>
@@ -17,10 +18,6 @@ namespace {
 /// minimum sine of the angle between this chord and the sides. Below, the axes of a frame would be
 /// unreliable.
 constexpr double kShortChord = 0.1;
-/// Length over which the direction of a side is measured, relative to the length of the side.
-constexpr double kReach = 0.02;
-/// Number of frames along a seam: steps of 3° for half a turn.
-constexpr int kFrames = 64;
 
 } // namespace
 
@@ -29,7 +26,10 @@ Vec3 SweptPatch::SideCurve::at(double f) const
     return point_at(points, arc, std::clamp(f, 0.0, 1.0) * arc.back());
 }
 
-Vec3 SweptPatch::SideCurve::tangent(double f) const { return at(f + kReach) - at(f - kReach); }
+Vec3 SweptPatch::SideCurve::tangent(double f) const
+{
+    return at(f + 1.0 / kFineChords) - at(f - 1.0 / kFineChords);
+}
 
 SweptPatch::SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
                        std::span<const Vec3> left)
@@ -63,9 +63,9 @@ bool SweptPatch::is_bent_seam() const
     const double reach = kSamePlace * left_.arc.back();
     const Vec3 along = (left_.points.back() - left_.points.front()).stableNormalized();
     double stray = 0;
-    for (int i = 0; i <= kFrames; ++i) {
-        const Vec3 p = left_.at(static_cast<double>(i) / kFrames);
-        if ((p - right_.at(static_cast<double>(i) / kFrames)).norm() > reach) return false;
+    for (int i = 0; i <= kFineChords; ++i) {
+        const Vec3 p = left_.at(static_cast<double>(i) / kFineChords);
+        if ((p - right_.at(static_cast<double>(i) / kFineChords)).norm() > reach) return false;
         stray = std::max(stray, (p - left_.points.front()).cross(along).norm());
     }
     return stray > reach;
@@ -74,18 +74,18 @@ bool SweptPatch::is_bent_seam() const
 void SweptPatch::carry_frame()
 {
     const auto tangent = [&](int i) {
-        return Vec3(left_.tangent(static_cast<double>(i) / kFrames).stableNormalized());
+        return Vec3(left_.tangent(static_cast<double>(i) / kFineChords).stableNormalized());
     };
     carried_.emplace_back(least_turn(Vec3::UnitZ(), tangent(0)));
-    for (int i = 1; i <= kFrames; ++i) {
+    for (int i = 1; i <= kFineChords; ++i) {
         const auto step = Eigen::Quaterniond(least_turn(tangent(i - 1), tangent(i)));
         carried_.push_back((step * carried_.back()).normalized());
     }
     first_ = frame(0);
     last_ = frame(1);
     double along = 0, across = 0;
-    for (int i = 0; i < kFrames; ++i) {
-        const double s = static_cast<double>(i) / kFrames;
+    for (int i = 0; i < kFineChords; ++i) {
+        const double s = static_cast<double>(i) / kFineChords;
         const Vec3 b = first_.transpose() * (bottom_.at(s) - bottom_.points.front());
         const Vec3 e = last_.transpose() * (top_.at(s) - top_.points.front());
         along += b.head<2>().dot(e.head<2>());
@@ -98,8 +98,8 @@ void SweptPatch::carry_frame()
 Eigen::Matrix3d SweptPatch::frame(double t) const
 {
     if (!carried_.empty()) {
-        const double at = std::clamp(t, 0.0, 1.0) * kFrames;
-        const auto low = static_cast<std::size_t>(std::min(std::floor(at), kFrames - 1.0));
+        const double at = std::clamp(t, 0.0, 1.0) * kFineChords;
+        const auto low = static_cast<std::size_t>(std::min(std::floor(at), kFineChords - 1.0));
         const Eigen::Quaterniond here = carried_[low].slerp(at - static_cast<double>(low), carried_[low + 1]);
         return here.toRotationMatrix() * Eigen::AngleAxisd(t * twist_, Vec3::UnitZ()).toRotationMatrix();
     }
@@ -133,8 +133,8 @@ double SweptPatch::unlike() const
         return Vec3(frame.transpose() * (side.at(s) - chord) / side.arc.back());
     };
     double most = 0;
-    for (int i = 1; i < kFrames; ++i) {
-        const double s = static_cast<double>(i) / kFrames;
+    for (int i = 1; i < kFineChords; ++i) {
+        const double s = static_cast<double>(i) / kFineChords;
         most = std::max(
             most, (deviation(bottom_, turns_ ? first_ : none, s) - deviation(top_, turns_ ? last_ : none, s))
                       .norm());

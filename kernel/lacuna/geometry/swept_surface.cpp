@@ -2,6 +2,7 @@
 #include <lacuna/geometry/shared/swept_surface.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
@@ -9,12 +10,6 @@
 namespace lacuna::geometry {
 
 namespace {
-
-/// Limit on the steps of a projection. A projection starts at the nearest facet, so the first distance is at
-/// most the sag of a chord. Three to five steps reduce the error to rounding.
-constexpr int kMostNewtonSteps = 20;
-/// Step of central differences, as a share of a parameter's range: the cube root of the rounding error.
-constexpr double kDifference = 1e-5;
 
 } // namespace
 
@@ -56,11 +51,14 @@ std::vector<Vec3> SweptSurface::at(std::span<const Vec2> uv, const RunContext& c
 void SweptSurface::project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context) const
 {
     const Vec2 low(edge_.params.front(), from_), high(edge_.params.back(), to_);
-    const Vec2 small = kDifference * (high - low);
+    constexpr double kShare = 1e-5; // near the cube root of the rounding error, where a difference is best
+    const Vec2 small = kShare * (high - low);
     const auto inside = [&](const Vec2& p) -> Vec2 { return p.cwiseMax(low).cwiseMin(high); };
     const std::size_t n = points.size();
     for (Vec2& p : uv) p = inside(p);
-    for (int step = 0; step < kMostNewtonSteps; ++step) {
+    // A projection starts at the nearest facet, so the first distance is at most the sag of a chord. Three to
+    // five steps reduce the error to rounding.
+    for (int step = 0; step < kMostRounds; ++step) {
         check_cancelled(context);
         // The place itself, and one place before and after it in each parameter.
         std::vector<Vec2> around(uv.begin(), uv.end());

@@ -60,9 +60,6 @@ constexpr double kTooLarge = 1 / std::numbers::sqrt2;
 // Smallest ratio of circumradius to shortest side for which inserting circumcentres provably ends, with
 // graded triangles (Ruppert 1995).
 constexpr double kTooSkinny = std::numbers::sqrt2;
-// Minimum distance of a new point from other points, relative to the target length: the circumradius of an
-// equilateral triangle of target size, because the circumcircle of a triangle contains no other point.
-constexpr double kKeepAway = kEquilateral;
 
 class Refinement {
 public:
@@ -257,7 +254,8 @@ private:
         const Index holder = mesh_.locate(p, t);
         if (holder < 0 || !mesh_[holder].inside || !mesh_.find_cavity(p, holder, cavity_)) return false;
         const double wanted = wanted_at(p, holder);
-        const double keep_away = std::min(kKeepAway * wanted, shortest);
+        // Other points are at least a circumradius away, because the circumcircle of a triangle is empty.
+        const double keep_away = std::min(kEquilateral * wanted, shortest);
         for (const DelaunayMesh::Cavity::Border& side : cavity_.border) {
             const Vec2 to_from = mesh_.at(side.from) - p;
             const Vec2 to_to = mesh_.at(side.to) - p;

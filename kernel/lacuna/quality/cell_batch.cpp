@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quality/detail/cell_batch.h>
 #include <lacuna/quality/detail/lanes.h>
 #include <lacuna/quality/quality.h>
@@ -58,7 +59,6 @@ LACUNA_INLINE void find_edges(const CellBatch<N>& batch, Edges<N>& edges)
 template <int N>
 LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
 {
-    constexpr double kLargest = std::numeric_limits<double>::max();
     alignas(64) double least[N];
     for (int i = 0; i < N; ++i) least[i] = 1;
     for (int w = 0; w < 2; ++w) {
@@ -73,7 +73,8 @@ LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
                 for (int i = 0; i < N; ++i) {
                     const double lengths = square_u[i] * square_v[i] * square_w[i];
                     const double ratio = det[i] * std::abs(det[i]) / lengths;
-                    const double safe = lengths > 0 && lengths <= kLargest ? ratio : 0.0;
+                    const double safe = lengths > 0 && lengths <= std::numeric_limits<double>::max() ? ratio
+                                                                                                     : 0.0;
                     least[i] = safe < least[i] ? safe : least[i];
                 }
             }
@@ -148,9 +149,6 @@ LACUNA_INLINE void find_volume(const Edges<N>& edges, const Turns<N>& turns, Cel
 template <int N>
 LACUNA_INLINE bool find_bound(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)
 {
-    constexpr double kMost = 1.5 * (1 + 1e-6); // margin for rounding
-    // Leave flatter cells, where rounding may matter, to the coefficients and to subdivision.
-    constexpr double kFlat = 1e-6;
     alignas(64) double edge[3][N], turn[3][N], least[N]; // largest squares; smallest J at the corners
     for (int d = 0; d < 3; ++d) {
         const auto& square = edges.square[d];
@@ -176,8 +174,9 @@ LACUNA_INLINE bool find_bound(const Edges<N>& edges, const Turns<N>& turns, Cell
         const double v = edge[1][i] * turn[0][i] * turn[2][i];
         const double w = edge[2][i] * turn[0][i] * turn[1][i];
         const double uv = u > v ? u : v;
-        const double bound = least[i] - kMost * std::sqrt(uv > w ? uv : w);
-        const double low = values.scaled[i] - kFlat;
+        const double bound = least[i] - 1.5 * (1 + kFileAccuracy) * std::sqrt(uv > w ? uv : w);
+        // Leave flatter cells, where rounding may matter, to the coefficients and to subdivision.
+        const double low = values.scaled[i] - kFileAccuracy;
         values.smallest[i] = least[i] = low > 0 ? bound : low;
     }
     for (int half = N / 2; half > 0; half /= 2)

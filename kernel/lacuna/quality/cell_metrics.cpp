@@ -13,8 +13,9 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr double kNothing = 1e-30; // limits of Verdict: smaller lengths, areas and volumes count as zero,
-constexpr double kWorst = 1e30;    // and metrics that are then undefined get this value
+/// Limit of Verdict: smaller lengths, areas and volumes count as zero. Metrics that are then undefined get
+/// its reciprocal.
+constexpr double kNothing = 1e-30;
 
 constexpr int N = kMetricLanes;
 using Real = Lanes<N>;
@@ -169,7 +170,7 @@ LACUNA_INLINE Real condition_square(const Parts& p, int i)
     const Real& det = p.corner[i];
     const Real r = (p.square[0][at.u] + p.square[1][at.v] + p.square[2][at.w]) *
                    (dot(uv, uv) + dot(vw, vw) + dot(wu, wu)) / (det * det);
-    return where_above(det, kNothing, r, kWorst * kWorst);
+    return where_above(det, kNothing, r, 1 / (kNothing * kNothing));
 }
 
 LACUNA_INLINE Real condition(const Parts& p)
@@ -197,7 +198,8 @@ LACUNA_INLINE Real oddy_cubed(const Vector& u, const Vector& v, const Vector& w,
     const Real tensor = (uu * uu + vv * vv + ww * ww) + 2 * (uv * uv + uw * uw + vw * vw);
     const Real part = tensor - (1.0 / 3) * (trace * trace);
     const Real square = det * det;
-    return where_above(det, kNothing, (part * part * part) / (square * square), kWorst * kWorst * kWorst);
+    return where_above(det, kNothing, (part * part * part) / (square * square),
+                       1 / (kNothing * kNothing * kNothing));
 }
 
 LACUNA_INLINE Real oddy(const Parts& p)
@@ -220,7 +222,7 @@ LACUNA_INLINE Real skew(const Parts& p)
     const Real ab = magnitude(dot(p.a, p.b)) / (la * lb);
     const Real ac = magnitude(dot(p.a, p.c)) / (la * lc);
     const Real bc = magnitude(dot(p.b, p.c)) / (lb * lc);
-    return where_above(least(la, least(lb, lc)), kNothing, greatest(ab, greatest(ac, bc)), kWorst);
+    return where_above(least(la, least(lb, lc)), kNothing, greatest(ab, greatest(ac, bc)), 1 / kNothing);
 }
 
 /// Differences of opposite edges: ab, ac, bc of the map.
@@ -245,21 +247,22 @@ LACUNA_INLINE Real taper(const Parts& p)
     const Real la = root(p.aa);
     const Real lb = root(p.bb);
     const Real lc = root(p.cc);
-    const Real ab = ratio(root(dot(d.ab, d.ab)), least(la, lb), kWorst);
-    const Real ac = ratio(root(dot(d.ac, d.ac)), least(la, lc), kWorst);
-    const Real bc = ratio(root(dot(d.bc, d.bc)), least(lb, lc), kWorst);
+    const Real ab = ratio(root(dot(d.ab, d.ab)), least(la, lb), 1 / kNothing);
+    const Real ac = ratio(root(dot(d.ac, d.ac)), least(la, lc), 1 / kNothing);
+    const Real bc = ratio(root(dot(d.bc, d.bc)), least(lb, lc), 1 / kNothing);
     return greatest(ab, greatest(ac, bc));
 }
 
 LACUNA_INLINE Real max_edge_ratio(const Parts& p)
 {
-    return ratio(root(greatest(p.aa, greatest(p.bb, p.cc))), root(least(p.aa, least(p.bb, p.cc))), kWorst);
+    return ratio(root(greatest(p.aa, greatest(p.bb, p.cc))), root(least(p.aa, least(p.bb, p.cc))),
+                 1 / kNothing);
 }
 
 LACUNA_INLINE Real edge_ratio(const Parts& p, const Real& longest)
 {
     const Real shortest = shortest_square(p);
-    return where_above(shortest, kNothing, root(longest / shortest), kWorst);
+    return where_above(shortest, kNothing, root(longest / shortest), 1 / kNothing);
 }
 
 /// As in VTK 9.1, the longest of the edges 0-1, 1-2, 2-3, 3-0, 4-5 and 5-6 only.
@@ -417,7 +420,7 @@ LACUNA_INLINE void evaluate_lanes(const Batch& batch, std::span<const Metric> me
         for (const Real& square : squares) size = size + square;
     for (const Metric metric : metrics) {
         const Real value = value_of(metric, parts, batch, average_volume);
-        const double otherwise = metric_info(metric).larger_is_better ? 0 : kWorst;
+        const double otherwise = metric_info(metric).larger_is_better ? 0 : 1 / kNothing;
         for (int i = 0; i < N; ++i)
             *values++ = std::isfinite(size.v[i]) && std::isfinite(value.v[i]) ? value.v[i] : otherwise;
     }

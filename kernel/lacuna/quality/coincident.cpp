@@ -14,8 +14,7 @@ namespace lacuna::quality {
 namespace {
 
 constexpr std::size_t kChunk = 16384; // points of one parallel task
-constexpr int kBinBits = 10;          // bins are small enough for the first-level cache
-constexpr std::size_t kBins = std::size_t(1) << kBinBits;
+constexpr std::size_t kBins = 1024;   // bins are small enough for the first-level cache
 /// Up to this number of points, the entries of all bins are made at once: 32 MB.
 constexpr std::size_t kFew = std::size_t(1) << 22;
 /// Up to this number of points per level, a level is searched at once: its entries take 1 MB.
@@ -35,7 +34,7 @@ struct ChunkHashes {
     std::array<std::uint32_t, kBins> count{};
 };
 
-std::size_t bin_of(std::uint32_t hash) { return hash >> (32 - kBinBits); }
+std::size_t bin_of(std::uint32_t hash) { return (hash * std::uint64_t{kBins}) >> 32; }
 
 std::unique_ptr<ChunkHashes[]> hashes_of(std::span<const Vec3> points, const CoincidenceGrid& grid,
                                          const RunContext& context)
@@ -182,9 +181,8 @@ bool are_apart(std::span<const Vec3> points, std::size_t level, double tolerance
 std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t level,
                                   const CoincidenceGrid& grid, const RunContext& context)
 {
-    constexpr std::size_t kTogether = 4; // levels that share a table, to save allocations
     std::vector<std::optional<Pair>> found(points.size() / level);
-    parallel_for(context, found.size(), kTogether, [&](std::size_t begin, std::size_t end) {
+    parallel_for(context, found.size(), 1 + kBetweenPolls / level, [&](std::size_t begin, std::size_t end) {
         std::vector<Entry> entries;
         std::vector<std::int32_t> table;
         for (std::size_t l = begin; l < end; ++l) {

@@ -2,6 +2,7 @@
 #include <lacuna/quality/shared/second_order.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/curved_other.h>
 #include <lacuna/quality/detail/lanes.h>
@@ -13,13 +14,9 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr std::size_t kSide = 6;                    ///< coefficients in each direction, for degree five
-constexpr std::size_t kAll = kSide * kSide * kSide; ///< coefficients; (a, b, c) is at a + 6 b + 36 c
-using Bezier = std::array<double, kAll>;
-
-/// A cell counts as straight if its middle nodes deviate from linear interpolation by at most this, relative
-/// to the size of the cell. The value is well above rounding errors.
-constexpr double kStraight = 1e-13;
+constexpr std::size_t kSide = 6; ///< coefficients in each direction, for degree five
+/// Coefficients; (a, b, c) is at a + 6 b + 36 c.
+using Bezier = std::array<double, kSide * kSide * kSide>;
 
 /// Position of each node of a hex27 in the grid of 3³ points, a + 3 b + 9 c.
 constexpr std::array<std::uint8_t, 27> kGrid{0,  2,  8, 6,  18, 20, 26, 24, 1,  5,  7, 3,  19, 23,
@@ -154,7 +151,7 @@ LACUNA_INLINE void to_bezier(Bezier& values)
 /// Bisect along a direction (de Casteljau): `whole` becomes the lower half.
 void split(Bezier& whole, Bezier& high, std::size_t stride)
 {
-    for (std::size_t at = 0; at < kAll; ++at) {
+    for (std::size_t at = 0; at < Bezier().size(); ++at) {
         if (at / stride % kSide != 0) continue;
         std::array<double, kSide> c;
         for (std::size_t i = 0; i < kSide; ++i) c[i] = whole[at + i * stride];
@@ -172,19 +169,19 @@ constexpr std::array<std::size_t, 3> kStrides{1, kSide, kSide* kSide};
 /// smallest inner coefficients.
 bool positive_parts(const Bezier& bezier, double floor, std::array<int, 3> cuts_left)
 {
-    constexpr std::size_t kLast = kSide - 1;
+    const std::size_t last = kSide - 1;
     for (std::size_t corner = 0; corner < 8; ++corner) {
         std::size_t at = 0;
-        for (std::size_t d = 0; d < 3; ++d) at += (corner >> d & 1) * kLast * kStrides[d];
+        for (std::size_t d = 0; d < 3; ++d) at += (corner >> d & 1) * last * kStrides[d];
         if (!(bezier[at] > floor)) return false;
     }
     if (*std::min_element(bezier.begin(), bezier.end()) > floor) return true;
     std::array<double, 3> inner;
     inner.fill(kInfinity);
-    for (std::size_t at = 0; at < kAll; ++at)
+    for (std::size_t at = 0; at < bezier.size(); ++at)
         for (std::size_t d = 0; d < 3; ++d) {
             const std::size_t i = at / kStrides[d] % kSide;
-            if (i > 0 && i < kLast) inner[d] = std::min(inner[d], bezier[at]);
+            if (i > 0 && i < last) inner[d] = std::min(inner[d], bezier[at]);
         }
     int best = -1;
     for (int d = 0; d < 3; ++d)
@@ -231,7 +228,7 @@ LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3],
 /// @param degree  degree along the direction before the division; higher coefficients are not used
 void divide(Bezier& bezier, std::size_t stride, std::size_t degree)
 {
-    for (std::size_t at = 0; at < kAll; ++at) {
+    for (std::size_t at = 0; at < Bezier().size(); ++at) {
         if (at / stride % kSide != 0) continue;
         const auto c = [&](std::size_t i) -> double& { return bezier[at + i * stride]; };
         for (std::size_t i = 0; i < degree; ++i)
@@ -243,7 +240,7 @@ void divide(Bezier& bezier, std::size_t stride, std::size_t degree)
 /// Raise the degree along a direction to five.
 void elevate(Bezier& bezier, std::size_t stride, std::size_t degree)
 {
-    for (std::size_t at = 0; at < kAll; ++at) {
+    for (std::size_t at = 0; at < Bezier().size(); ++at) {
         if (at / stride % kSide != 0) continue;
         const auto c = [&](std::size_t i) -> double& { return bezier[at + i * stride]; };
         for (std::size_t n = degree + 1; n < kSide; ++n)
@@ -278,7 +275,7 @@ double integral(const Bezier& bezier)
 {
     double sum = 0;
     for (const double value : bezier) sum += value;
-    return sum / static_cast<double>(kAll);
+    return sum / static_cast<double>(bezier.size());
 }
 
 /// Whether corner `c` of a hexahedron is at the end of direction `d`.
@@ -378,7 +375,7 @@ std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3> place
     for (const Vec3& corner : places.first<8>())
         size = std::max(size, (corner - places[0]).cwiseAbs().maxCoeff());
     for (const Vec3& by : deviation) most = std::max(most, by.cwiseAbs().maxCoeff());
-    if (most <= kStraight * size) return std::nullopt;
+    if (most <= kRoundoff * size) return std::nullopt;
     std::array<double, 27> nodes[3];
     for (std::size_t p = 0; p < 27; ++p) {
         const std::array<double, 3> at{double(p % 3) / 2, double(p / 3 % 3) / 2, double(p / 9) / 2};
@@ -408,7 +405,7 @@ template <class Is>
 std::vector<std::size_t> cells_that_are_not(std::size_t count, const RunContext& context, const Is& is)
 {
     std::vector<std::uint8_t> lacks(count, 0);
-    parallel_each(context, count, kCurvedGrain, [&](std::size_t c) { lacks[c] = is(c) ? 0 : 1; });
+    parallel_each(context, count, kPerTask, [&](std::size_t c) { lacks[c] = is(c) ? 0 : 1; });
     std::vector<std::size_t> cells;
     for (std::size_t c = 0; c < count; ++c)
         if (lacks[c] != 0) cells.push_back(c);
@@ -420,7 +417,7 @@ std::vector<std::size_t> cells_that_are_not(std::size_t count, const RunContext&
 bool is_straight(std::span<const Vec3, 27> nodes)
 {
     const std::array<Vec3, 27> straight = mesh::as_hex27(nodes.first<8>());
-    const double slack = kStraight *
+    const double slack = kRoundoff *
                          ((nodes[6] - nodes[0]).cwiseAbs().maxCoeff() + nodes[0].cwiseAbs().maxCoeff());
     for (std::size_t n = 8; n < 27; ++n)
         if (!((nodes[n] - straight[n]).cwiseAbs().maxCoeff() <= slack)) return false;

@@ -11,8 +11,6 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr auto kHexKind = static_cast<std::size_t>(CellKind::hex);
-
 struct Partial {
     double sum = 0;
     double volume = 0;
@@ -81,7 +79,8 @@ void add_batch(Partial& partial, const Cells& cells, const Values& values, const
         partial.worst.offer({.cell = c, .scaled_jacobian = values.scaled[c - first]}, cells.column_of(c));
     if (!positive) count_bad(partial, values, signs, filled);
     if (hexes) {
-        partial.least[kHexKind] = std::min(partial.least[kHexKind], least);
+        double& of_hexes = partial.least[static_cast<std::size_t>(CellKind::hex)];
+        of_hexes = std::min(of_hexes, least);
         return;
     }
     for (std::size_t c = first; c < end; ++c) {

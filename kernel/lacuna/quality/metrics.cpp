@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/shared/metrics.h>
-#include <lacuna/quality/shared/second_order.h>
-
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/detail/cell_metrics.h>
+#include <lacuna/quality/shared/metrics.h>
+#include <lacuna/quality/shared/second_order.h>
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace lacuna::quality {
@@ -90,15 +91,13 @@ struct Tally {
     }
 };
 
-/// Value of a metric that is not defined for a cell because the cell is not a hexahedron.
-constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-
-/// Store the metrics of a cell that is not a hexahedron in a lane.
+/// Store the metrics of a cell that is not a hexahedron in a lane; NaN for a metric that only hexahedra have.
 void put_other(std::span<const Metric> metrics, CellKind kind, const CellCorners& corners, double* values)
 {
     const OtherValues own = evaluate_other(kind, corners);
     for (std::size_t m = 0; m < metrics.size(); ++m)
-        values[m * kMetricLanes] = other_metric(metrics[m], own).value_or(kNoValue);
+        values[m * kMetricLanes] =
+            other_metric(metrics[m], own).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Call `body(chunk, first cell, filled lanes, values)` for every batch of every chunk, chunks in parallel.
@@ -315,7 +314,7 @@ std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, cons
 {
     std::vector<double> values = values_of(SweptCells{mesh}, metric, average_volume, context);
     if (mesh.order() == 1 || metric != Metric::scaled_jacobian) return values;
-    parallel_each(context, values.size(), kCurvedGrain, [&](std::size_t c) {
+    parallel_each(context, values.size(), kPerTask, [&](std::size_t c) {
         const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
         if (!is_straight(nodes)) values[c] = in_single_precision(judge(nodes, 0).scaled_jacobian);
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/shared/prove_cells.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/mesh/cell_shape.h>
 #include <lacuna/quality/detail/findings.h>
@@ -10,9 +11,6 @@
 
 namespace lacuna::quality {
 namespace {
-
-/// Number of cells or groups between two checks for cancellation: some milliseconds.
-constexpr std::size_t kCheckEvery = 1 << 16;
 
 /// The sides of a kind of cell as corners of `Hex`, oriented outward; the fourth is -1 for a triangle.
 std::vector<Quad> sides_of(CellKind kind)
@@ -104,10 +102,10 @@ private:
         return a == b;
     }
 
-    /// Check for cancellation in every kCheckEvery-th call.
+    /// Check for cancellation in every kBetweenPolls-th call.
     void count_step()
     {
-        if (++steps_ % kCheckEvery == 0) check_cancelled(context_);
+        if (++steps_ % kBetweenPolls == 0) check_cancelled(context_);
     }
 
     /// Find the skin: the sides of one cell only. Every other side must belong to two cells, in opposite

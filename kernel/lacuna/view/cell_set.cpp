@@ -2,6 +2,7 @@
 #include <lacuna/view/detail/cell_set.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/core/shared/renumbered.h>
 #include <lacuna/mesh/tet_mesh.h>
@@ -42,7 +43,7 @@ std::vector<double> quality_of(const ListedCells& region, const RunContext& cont
 {
     std::vector<double> values = quality::metric_values(region.nodes, region.cells,
                                                         quality::Metric::scaled_jacobian, context);
-    parallel_each(context, region.curved.size(), quality::kCurvedGrain, [&](std::size_t c) {
+    parallel_each(context, region.curved.size(), kPerTask, [&](std::size_t c) {
         if (region.curved[c].count == 0) return;
         if (const auto curved = quality::judge_listed(region.nodes, region.curved[c]))
             values[c] = curved->scaled_jacobian;

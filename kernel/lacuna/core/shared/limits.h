@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-/// Numbers of samples, steps and trials that several folders share.
+/// Numbers of samples, steps, trials and tasks that several folders share.
 
 namespace lacuna {
 
@@ -45,5 +45,13 @@ inline constexpr std::size_t kMostTrials = 8;
 
 /// Limit on the number of cells of a mesh that is not swept. It bounds time and memory.
 inline constexpr double kMostCells = 1e7;
+
+/// Limit on the rounds of an iteration that ends by itself, usually after a few rounds. It keeps an input on
+/// which the iteration does not settle from holding the caller.
+inline constexpr int kMostRounds = 64;
+
+/// Number of elements in one task of a parallel loop if an element takes a microsecond or more, as a cell
+/// does. For faster elements, `kBetweenPolls` is used.
+inline constexpr std::size_t kPerTask = 512;
 
 } // namespace lacuna

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/quality/detail/cell_batch.h>
@@ -58,12 +59,8 @@ struct ListedCells {
     }
 };
 
-/// Approximate number of cells of a partial result. Partial results are added in order, so that sums do not
-/// depend on the threads.
-inline constexpr std::size_t kChunk = 4096;
-
 /// Division of the columns into chunks, one for each partial result. Each has a multiple of `lanes` columns,
-/// except the last.
+/// except the last. Partial results are added in order, so that sums do not depend on the threads.
 template <class Cells>
 struct Chunks {
     const Cells& cells;
@@ -71,7 +68,8 @@ struct Chunks {
 
     Chunks(const Cells& of, std::size_t lanes)
         : cells(of),
-          width(lanes * std::max<std::size_t>(1, kChunk / lanes / std::max<std::size_t>(1, of.layers()))),
+          width(lanes *
+                std::max<std::size_t>(1, kBetweenPolls / lanes / std::max<std::size_t>(1, of.layers()))),
           count((of.columns() + width - 1) / width)
     {
     }

@@ -12,9 +12,6 @@
 
 namespace lacuna::quality {
 
-/// Number of curved cells that a thread processes at a time; a cell takes a few microseconds.
-inline constexpr std::size_t kCurvedGrain = 256;
-
 /// Validity and quality of a hexahedron of order 2.
 struct CurvedCell {
     /// Smallest scaled Jacobian at the 27 nodes: the determinant of the derivatives of the map divided by the
