@@ -83,7 +83,20 @@ for _ = 1, whole and 6 or 1 do
       .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}"
   local link = ("Box(1)={-6,%g,0,6,%g,%g}; Cylinder(2)={0,0,0,0,0,%g,%g};"):format(-r2, 2 * r2, h, h, r2)
       .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}"
+  local angle = ("Box(1)={0,0,0,8,5,%g}; Box(2)={0,0,0,%g,5,6};"):format(r1, r1)
+      .. "BooleanUnion(3)={Volume{1};Delete;}{Volume{2};Delete;};"
+      .. ("Cylinder(4)={5,2.5,-1,0,0,5,%g};"):format(r1)
+      .. "BooleanDifference{Volume{3};Delete;}{Volume{4};Delete;}"
+  local crossed = ("Box(1)={-5,-3,-3,10,6,6}; Cylinder(2)={-6,0,0,12,0,0,%g};"):format(r3)
+      .. ("Cylinder(3)={0,0,0,0,0,9,%g}; BooleanUnion(4)={Volume{2};Delete;}{Volume{3};Delete;};"):format(r1)
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{4};Delete;}"
+  local flatted = ("Cylinder(1)={0,0,0,0,0,6,%g}; Box(2)={%g,-9,%g,9,18,9};"):format(r3, 0.6 * r3, 6 - h)
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}"
   for _, case in ipairs {
+    { "bore of an angle", angle, { { 5 + r1, 2.5, r1 / 2 } } },
+    { "bore that another crosses", crossed, { { -4, 0, r3 } } },
+    { "bore that ends at another", crossed, { { r1, 0, 2.5 } } },
+    { "wall of a shaft with a flat", flatted, { { -r3, 0, 1 } } },
     { "wall of a branch", tee, { { 3, r1, 0 } }, },
     { "wall that a branch leaves", tee, { { -r3, 0, 1 } }, },
     { "wall that an arm leaves", lever, { { -r2, 0, h / 2 } }, },
@@ -120,6 +133,10 @@ for what, case in pairs {
       .. "BooleanUnion(3)={Volume{1};Delete;}{Volume{2};Delete;}; Cylinder(4)={0,0,-1,0,0,9,0.5};"
       .. "BooleanDifference{Volume{3};Delete;}{Volume{4};Delete;}",
     { { 1, 0, 4 }, { 2, 0, 0 }, { 0.8, 0, 5 } } },
+  ["blind bore of a shaft"] = { "Cylinder(1)={0,0,0,0,0,6,2}; Cylinder(2)={0,0,4,0,0,9,1};"
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}", { { 1, 0, 5 }, { 0, 0, 4 } } },
+  ["hollow of a dome"] = { "Sphere(1)={0,0,0,3,0,Pi/2,2*Pi}; Sphere(2)={0,0,0,2.5,0,Pi/2,2*Pi};"
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}", { { 0, 0, 2.5 } } },
   ["ball end and base"] = { "Cylinder(1)={0,0,0,0,0,4,1.5}; Sphere(2)={0,0,4,1.5};"
       .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}", { { 0, 0, 5.5 }, { 0, 0, 0 } } },
   ["all but the outer wall of a ring"] = { "Cylinder(1)={0,0,0,0,0,2,3}; Cylinder(2)={0,0,-1,0,0,9,1.5};"

@@ -8,6 +8,7 @@
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/detail/no_roles.h>
+#include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/smooth_ends.h>
 #include <lacuna/closure/detail/stubs.h>
@@ -123,6 +124,18 @@ constexpr double kBend = 100 * kDegree;
 /// alternative.
 constexpr double kLean = 20 * kDegree;
 
+/// Whether all rims of both ends are circles. A straight tube has no two circles that are inclined to each
+/// other.
+bool has_round_ends(const OpenVolume& volume)
+{
+    const auto is_round = [&](Role end) {
+        return std::ranges::all_of(rims(volume.model, volume.faces(end)), [&](const Rim& rim) {
+            return radius_of_circle(volume.model, rim).has_value();
+        });
+    };
+    return is_round(Role::source) && is_round(Role::target);
+}
+
 /// Relative difference between an alternative volume and the volume `taken`; 0 if the alternative cannot be
 /// sealed.
 double share_between(double taken, const std::optional<double>& other)
@@ -196,8 +209,8 @@ private:
     /// the first shape of void edges is:
     /// - between two ends with walls that join them: `follow` if the walls are bent
     ///   (`Follower::leads_astray()`), otherwise `straight`;
-    /// - between two ends without such walls: `smooth` if the angle between the ends exceeds `kBend`,
-    ///   otherwise `straight`.
+    /// - between two ends without such walls: `smooth` if the angle between the ends exceeds `kBend`, or if
+    ///   it exceeds `kLean` and all rims are circles, as at an elbow; otherwise `straight`.
     std::vector<Way> wanted(const matching::Match& match) const
     {
         if (value_ == VolumeClass::IV) {
@@ -208,7 +221,9 @@ private:
         if (options_.edge_shape != EdgeShape::automatic) return {{options_.edge_shape}};
         if (!has_two_ends(value_)) return {{EdgeShape::straight}};
         std::vector<Way> ways{{EdgeShape::straight}};
-        if (!leads() && lean_of(volume_) > kBend) return {{EdgeShape::smooth}, {EdgeShape::straight}};
+        const double lean = leads() ? 0 : lean_of(volume_);
+        if (lean > kBend || (lean > kLean && has_round_ends(volume_)))
+            return {{EdgeShape::smooth}, {EdgeShape::straight}};
         if (leads())
             ways.insert(follower_->leads_astray(volume_, match) ? ways.begin() : ways.end(),
                         {EdgeShape::follow});
@@ -275,10 +290,11 @@ private:
                           "the walls beside the missing target stop below it and are continued by flat faces "
                           "that meet in straight edges"},
                          closure);
-        note_open_rims(sealed, options_.take_guess ? RolesBy::finding : RolesBy::person, closure);
+        const RolesBy by = options_.take_guess ? RolesBy::finding : RolesBy::person;
+        note_open_rims(sealed, by, closure);
         if (options_.take_guess) note_joined_rims(sealed.model, closure);
         if (asks_for_shape(options_)) closure.assumptions.clear();
-        note_closed_holes(volume_.model, all_faces(volume_.model), sealed, closure);
+        note_closed_holes(volume_.model, all_faces(volume_.model), sealed, by, closure);
     }
 
     Closed seal_as(const Way& way, const matching::Match& match) const

@@ -131,10 +131,17 @@ struct Along {
     std::optional<Profile> scale; ///< size of the section relative to the source, 1 at the source [-]
 };
 
+/// What is assumed about missing faces.
+enum class Assumed {
+    shape,
+    straight,   ///< that they are flat, or walls that are straight
+    round_wall, ///< that a straight round wall joins two given rims
+};
+
 /// An assumption about missing faces that changes the volume by more than 2 % if it is wrong.
 struct Assumption {
-    std::size_t note;           ///< index in `Closure::notes`
-    bool only_straight = false; ///< assumes only flat missing faces or straight missing walls
+    std::size_t note; ///< index in `Closure::notes`
+    Assumed what = Assumed::shape;
 };
 
 /// The void entities added to seal the volume, and how they were made.

@@ -161,7 +161,7 @@ std::optional<FlatFilling> fill_and_note(const Model& model, const std::vector<F
 {
     auto filled = fill_loops(model, faces, missing, context);
     if (!filled || !prove(*filled, context)) return std::nullopt;
-    note_closed_holes(model, faces, filled->volume, filled->closure);
+    note_closed_holes(model, faces, filled->volume, RolesBy::finding, filled->closure);
     note_open_rims(filled->volume, RolesBy::finding, filled->closure);
     return filled;
 }

@@ -299,7 +299,8 @@ void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
     std::set<FaceId> beside;
     double largest = 0;
     for (const FaceId face : closure.void_faces) {
-        const std::optional<double> radius = radius_of_disc(model, face);
+        const std::vector<Loop>& loops = model[face].loops;
+        const auto radius = loops.size() == 1 ? radius_of_circle(model, {loops.front().uses}) : std::nullopt;
         std::set<FaceId> given = faces_beside(model, face);
         std::erase_if(given, [&](FaceId other) { return model[other].origin != Origin::given; });
         if (!radius || given.empty() || face_round_hole(model, face)) continue;
@@ -309,13 +310,13 @@ void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
     }
     if (flat.empty()) return;
     const double half_ball = 2 * std::numbers::pi / 3 * std::pow(largest, 3);
-    assume_straight(
-        closure, Message("closure.flat_assumed",
-                         "flat faces are assumed in the circles beside {}: {}. Part of a ball, a cone or a "
-                         "ring can end in such a circle, too, and half a ball would change the volume by "
-                         "{:.2g} %",
-                         entities_of(model, beside), entities_of(model, flat), 100 * half_ball / enclosed)
-                     .remedy("if a true face is not flat or has a hole, give it"));
+    assume(closure,
+           Message("closure.flat_assumed",
+                   "flat faces are assumed in the circles beside {}: {}. Part of a ball, a cone or a ring "
+                   "can end in such a circle, too, and half a ball would change the volume by {:.2g} %",
+                   entities_of(model, beside), entities_of(model, flat), 100 * half_ball / enclosed)
+               .remedy("if a true face is not flat or has a hole, give it"),
+           1, Assumed::straight);
 }
 
 /// Largest distance of the centroids of the other void faces from the mean plane of `face` [model length].
@@ -360,15 +361,9 @@ Message guess_of_hole(const Model& model, FaceId face)
             entity_of(model, face)};
 }
 
-void assume(Closure& closure, Message note, double share)
+void assume(Closure& closure, Message note, double share, Assumed what)
 {
-    if (share > kVolumeNoted) closure.assumptions.push_back({closure.notes.size()});
-    closure.notes.push_back(std::move(note));
-}
-
-void assume_straight(Closure& closure, Message note)
-{
-    closure.assumptions.push_back({closure.notes.size(), true});
+    if (share > kVolumeNoted) closure.assumptions.push_back({closure.notes.size(), what});
     closure.notes.push_back(std::move(note));
 }
 
@@ -387,7 +382,7 @@ void assume_walls(const OpenVolume& sealed, const Message& note, Closure& closur
 }
 
 void note_closed_holes(const Model& model, const std::vector<FaceId>& given, const OpenVolume& sealed,
-                       Closure& closure)
+                       RolesBy by, Closure& closure)
 {
     const bool inward = look_inward(model, given, sealed.model);
     for (const FaceId face : closure.void_faces) {
@@ -404,10 +399,10 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
     }
     for (const auto& [round, filler] : closed_holes(given.size(), sealed.model, closure.void_faces)) {
         const bool wall = sealed.role[filler.index()] == Role::wall;
-        if (wall == inward) continue;
+        if (wall == inward && (wall || by == RolesBy::person)) continue;
         const double area = face_area(sealed.model, filler);
         const NamedEntity face = entity_of(model, given[round.index()]);
-        if (wall)
+        if (!inward)
             assume(closure,
                    Message("closure.hole_closed",
                            "a hole of {} is closed in its plane, which fills any pocket behind it", face)

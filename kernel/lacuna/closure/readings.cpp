@@ -19,6 +19,7 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <string>
 
 namespace lacuna::closure {
@@ -158,24 +159,50 @@ std::optional<Closed> sealed_state(const Reading& reading)
     return std::nullopt;
 }
 
-/// If a reading is ambiguous, or has a void face whose rim does not determine its shape, replace the reading
-/// by that of `read_filled()`, provided that the latter is unambiguous.
-void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& reading,
+/// Whether a closing makes no other assumptions than some.
+bool assumes_only(const Closure& closure, std::initializer_list<Assumed> kinds)
+{
+    return std::ranges::all_of(closure.assumptions, [&](const Assumption& assumption) {
+        return std::ranges::find(kinds, assumption.what) != kinds.end();
+    });
+}
+
+/// Whether a hole of a given face is closed in its plane.
+bool closes_hole(const Model& model, const Closure& closure)
+{
+    return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
+        const std::vector<Loop>& loops = model[face].loops;
+        return loops.size() == 1 && continues_given_planes(model, {loops.front().uses});
+    });
+}
+
+/// If some readings are ambiguous, or a single one has a void face whose rim does not determine its shape,
+/// replace them by that of `read_filled()`, provided that the latter assumes no more than that missing faces
+/// are flat or straight. If the readings differ in volume, or in whether holes go through, it must close no
+/// hole and assume nothing but round walls between rims.
+void prefer_told(const Model& model, const std::vector<FaceId>& faces, std::vector<Reading>& readings,
                  const RunContext& context)
 {
+    const Reading& reading = readings.front();
+    const bool differ = readings.size() > 1 || reading.holed.valid();
     const auto sealed = sealed_state(reading);
     const bool untold = sealed && (untold_face(sealed->volume, sealed->closure) ||
                                    std::ranges::any_of(sealed->closure.void_faces, [&](FaceId face) {
                                        return is_bent_ring(sealed->volume.model, face);
                                    }));
-    if (reading.holed.valid() || (!untold && !reading.guess)) return;
+    if (!differ && !untold && !reading.guess) return;
     auto told = read_filled(model, faces, context);
     const bool is_sure = told && !told->guess &&
-                         std::ranges::all_of(told->closure->assumptions, &Assumption::only_straight);
+                         (differ
+                              ? !closes_hole(told->volume.model, *told->closure) &&
+                                    assumes_only(*told->closure, {Assumed::round_wall})
+                              : assumes_only(*told->closure, {Assumed::straight, Assumed::round_wall}));
     // A reading without `guess` is one connected body. A filling with several parts must not replace it.
-    if (is_sure &&
-        (reading.guess || connected_parts(told->volume.model, all_faces(told->volume.model)).size() == 1))
-        reading = std::move(*told);
+    if (is_sure && ((!differ && reading.guess) ||
+                    connected_parts(told->volume.model, all_faces(told->volume.model)).size() == 1)) {
+        readings.clear();
+        readings.push_back(std::move(*told));
+    }
 }
 
 /// Whether all void faces of a reading are flat.
@@ -242,8 +269,8 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     }
     if (readings.empty()) {
         if (auto filled = read_filled(model, faces, context)) readings.push_back(std::move(*filled));
-    } else if (readings.size() == 1) {
-        prefer_told(model, faces, readings.front(), context);
+    } else {
+        prefer_told(model, faces, readings, context);
     }
     return readings;
 }

@@ -25,9 +25,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <ranges>
 #include <set>
+#include <utility>
 
 namespace lacuna::closure {
 
@@ -153,16 +155,17 @@ bool may_join(const Model& model, const RoundRim& a, const RoundRim& b)
     return std::abs(a.radius - b.radius) <= kOffShape * radius && !continues(a) && !continues(b);
 }
 
-/// Whether a loop is the rim of a hole in the round wall between two rims.
-bool is_hole_between(const Model& model, const Rim& loop, const RoundRim& from, const RoundRim& to)
+/// Whether a loop is the rim of a hole in the round wall between two rims: it lies between the lowest and the
+/// highest of the places of both rims.
+bool is_hole_between(const Model& model, const Rim& loop, const RoundRim& axis,
+                     const std::vector<Vec3>& rim_places)
 {
     const std::vector<Vec3> places = loop_places(model, loop.uses);
-    const double end = geometry::height(from.base, to.base.origin);
-    return is_round(from.base, from.radius, places) && std::abs(turn_round(from.base, places)) <= kParallel &&
-           std::ranges::all_of(places, [&](const Vec3& p) {
-               const double height = geometry::height(from.base, p);
-               return height > std::min(0.0, end) && height < std::max(0.0, end);
-           });
+    const auto height = [&](const Vec3& p) { return geometry::height(axis.base, p); };
+    const auto [low, high] = std::ranges::minmax(rim_places, {}, height);
+    return is_round(axis.base, axis.radius, places) && std::abs(turn_round(axis.base, places)) <= kParallel &&
+           std::ranges::all_of(
+               places, [&](const Vec3& p) { return height(p) > height(low) && height(p) < height(high); });
 }
 
 /// Choose, among rims on one axis with one radius, the pairs between which a wall is missing.
@@ -275,7 +278,8 @@ struct UnrolledWall {
 };
 
 /// Unroll the wall between two rims. It is cut open between two points of the rims, as far from the holes as
-/// possible. @return  empty if the outline crosses itself
+/// possible; of the points at one angle, such as those at a step of a rim, the one next to the other rim is
+/// taken. @return  empty if the outline crosses itself
 std::optional<UnrolledWall> unroll_wall(const Model& model, const RoundRim& from,
                                         const std::vector<EdgeUse>& a, const std::vector<EdgeUse>& b,
                                         const std::vector<Loop>& holes)
@@ -290,15 +294,19 @@ std::optional<UnrolledWall> unroll_wall(const Model& model, const RoundRim& from
         }
         return flat;
     };
+    const double side = std::copysign(
+        1, geometry::height(from.base, geometry::mean_point(loop_places(model, b))));
+    const auto height = [&](const Vec3& p) { return side * geometry::height(from.base, p); };
     const Chain foot = chain_from(model, a, [&](const Vec3& p) {
         double least = std::numbers::pi;
         for (const Loop& hole : holes)
             for (const Vec3& q : loop_places(model, hole.uses))
                 least = std::min(least, std::abs(turn_between(angle(p), angle(q))));
-        return -least;
+        return std::pair(-least, -height(p));
     });
     Chain top = chain_from(model, b, [&](const Vec3& p) {
-        return std::abs(turn_between(angle(foot.places.front()), angle(p)));
+        const double off = std::abs(turn_between(angle(foot.places.front()), angle(p)));
+        return std::pair(std::round(off / kOffShape), height(p)); // rounded: points at one angle are alike
     });
     std::ranges::reverse(top.places);
     std::ranges::reverse(top.points);
@@ -360,9 +368,9 @@ std::optional<VoidFilling> fill_round_wall(const Model& model, const RoundRim& f
     return result;
 }
 
-/// Add the wall between two rims. Vertices at equal angles are joined by straight edges.
+/// Add the wall between two rims. If both are flat, vertices at equal angles are joined by straight edges.
 /// @return  false if the unrolled wall crosses itself or a hole
-bool add_tube(FlatFilling& filling, const RoundRim& from, const std::vector<EdgeUse>& a,
+bool add_tube(FlatFilling& filling, const RoundRim& from, const RoundRim& to, const std::vector<EdgeUse>& a,
               std::vector<EdgeUse> b, const std::vector<Loop>& holes, const RunContext& context)
 {
     Model& model = filling.volume.model;
@@ -370,8 +378,10 @@ bool add_tube(FlatFilling& filling, const RoundRim& from, const std::vector<Edge
         return turn_round(from.base, loop_places(model, uses)) > 0;
     };
     if (sense(a) != sense(b)) b = closure::reversed({b}).uses;
-    const auto pairs = aligned(model, from, a, b);
-    if (pairs.empty() || !holes.empty()) {
+    const bool plain = from.flat && to.flat && holes.empty();
+    const auto pairs = plain ? aligned(model, from, a, b)
+                             : std::vector<std::pair<std::size_t, std::size_t>>();
+    if (pairs.empty()) {
         auto wall = fill_round_wall(model, from, a, b, holes, context);
         if (!wall) return false;
         filling.closure.void_faces.push_back(add_void_face(filling.volume, std::move(*wall), Role::wall));
@@ -448,14 +458,11 @@ void add_wall(FlatFilling& filling, const std::vector<std::vector<EdgeUse>>& sid
     filling.closure.void_faces.push_back(add_void_face(filling.volume, std::move(wall), Role::wall));
 }
 
-std::optional<double> radius_of_disc(const Model& model, FaceId face)
+std::optional<double> radius_of_circle(const Model& model, const Rim& rim)
 {
-    const std::vector<Loop>& loops = model[face].loops;
-    if (loops.size() != 1 || !is_flat(model, {loops.front().uses}) ||
-        !sharp_corners(model, loops.front()).empty())
-        return std::nullopt;
-    const auto rim = round_rim(model, {loops.front().uses}, 0);
-    return rim ? std::optional(rim->radius) : std::nullopt;
+    if (!is_flat(model, rim) || !sharp_corners(model, {rim.uses}).empty()) return std::nullopt;
+    const auto round = round_rim(model, rim, 0);
+    return round ? std::optional(round->radius) : std::nullopt;
 }
 
 bool continues_given_planes(const Model& model, const Rim& rim)
@@ -546,19 +553,21 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
             check_cancelled(context);
             std::vector<Loop> holes;
             std::set<std::size_t> taken{from.loop, to.loop};
+            std::vector<Vec3> places = loop_places(model, loops[from.loop].uses);
+            std::ranges::copy(loop_places(model, loops[to.loop].uses), std::back_inserter(places));
             for (std::size_t l = 0; l < loops.size(); ++l) {
-                if (joined.contains(l) || !is_hole_between(model, loops[l], from, to)) continue;
+                if (joined.contains(l) || !is_hole_between(model, loops[l], from, places)) continue;
                 holes.push_back({loops[l].uses});
                 taken.insert(l);
             }
-            if (!add_tube(filling, from, loops[from.loop].uses, loops[to.loop].uses, holes, context))
+            if (!add_tube(filling, from, to, loops[from.loop].uses, loops[to.loop].uses, holes, context))
                 continue;
             joined.merge(taken);
             const std::vector<FaceId> faces{*from.beside.begin(), *to.beside.begin()};
             assume(filling.closure,
                    {"closure.round_wall", "the rims of {} are joined by a straight round wall",
                     entities_of(model, faces)},
-                   from.needs_wall && to.needs_wall && holes.empty() ? 0 : 1);
+                   from.needs_wall && to.needs_wall && holes.empty() ? 0 : 1, Assumed::round_wall);
         }
     }
     std::vector<Rim> left;

@@ -115,11 +115,12 @@ std::vector<Rim> add_straight_walls(FlatFilling& filling, std::vector<Rim> loops
         if (!end) continue;
         const std::vector<FaceId> at{given_beside(model, loops[l])}, beyond{given_beside(model, loops[*end])};
         loops[l] = add_walls_to(filling, loops[l], plane[*end], context);
-        assume_straight(filling.closure,
-                        {"closure.straight_wall",
-                         "the missing walls at the rim of {} are assumed to be straight, up to the plane of "
-                         "the missing face beside {}",
-                         entities_of(model, at), entities_of(model, beyond)});
+        assume(filling.closure,
+               {"closure.straight_wall",
+                "the missing walls at the rim of {} are assumed to be straight, up to the plane of the "
+                "missing face beside {}",
+                entities_of(model, at), entities_of(model, beyond)},
+               1, Assumed::straight);
     }
     return loops;
 }

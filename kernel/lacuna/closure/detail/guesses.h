@@ -37,9 +37,7 @@ Message guess_of_hole(const topology::Model& model, FaceId face);
 
 /// Add a note. If `share` exceeds 2 %, the note is also listed in `Closure::assumptions`.
 /// @param share  relative change of the volume if the assumption is wrong
-void assume(Closure& closure, Message note, double share);
-/// Note an assumption of `Assumption::only_straight`.
-void assume_straight(Closure& closure, Message note);
+void assume(Closure& closure, Message note, double share, Assumed what = Assumed::shape);
 
 /// Note an assumption about missing walls next to a missing end. The uncertain volume is that of a bulge of
 /// each missing wall by a quarter of its width, where the width is 4 area / perimeter.
@@ -47,13 +45,13 @@ void assume_walls(const topology::OpenVolume& sealed, const Message& note, Closu
 
 /// Note assumptions about void faces, with the relative change of the volume if an assumption is wrong
 /// (`assume()`):
-/// - If the normals of the given faces do not point into the void: a wall that closes a hole of a given face
-///   in the face's plane. A pocket may be missing behind the wall. It is assumed to be as deep as the hole is
-///   wide.
+/// - If the normals of the given faces do not point into the void: a face that closes a hole of a given face
+///   in the face's plane. A pocket may be missing behind it. It is assumed to be as deep as the hole is
+///   wide. In an end that a person named, the hole is a part of the end and is not noted.
 /// - If the normals point into the void: a face of an end that covers a hole of a given face.
 /// - If the normals point into the void: a void face that is the smaller part of a ball.
 void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& given,
-                       const topology::OpenVolume& sealed, Closure& closure);
+                       const topology::OpenVolume& sealed, RolesBy by, Closure& closure);
 
 /// Note assumptions about void faces:
 /// - membranes;

@@ -29,8 +29,8 @@ void add_wall(FlatFilling& filling, const std::vector<std::vector<topology::Edge
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);
 
-/// Radius of a flat face whose only loop is a circle; empty for any other face.
-std::optional<double> radius_of_disc(const topology::Model& model, FaceId face);
+/// Radius of a rim that is a circle; empty for any other rim.
+std::optional<double> radius_of_circle(const topology::Model& model, const topology::Rim& rim);
 
 /// Whether a flat face in a rim would lie in the plane of all given faces round the rim. If so, a wall is
 /// missing there.
