@@ -99,11 +99,12 @@ it prints the quality. The words are the options of lacuna.load, open_volume, sw
 
   lacuna fill housing.step resin.inp source=16 walls=auto size=2 name=resin
   lacuna fill product.step box.step foam.vtu size=4 fallback=mixed
-  lacuna fill pipe.stl case/constant/polyMesh faces=2 size=2
+  lacuna fill pipe.stl case/constant/polyMesh faces=1,2 size=2
   lacuna fill old.inp new.inp source=FLOOR walls=auto with=true
 
-Without source, target, walls and faces all faces bound the void. `lacuna info IN` and `lacuna view IN` show
-the tags of faces. A list is written with commas, walls=4,5,6, a table as in Lua, 'layers={count=8,bias=2}'.
+Without source, target, walls and faces all faces bound the void: a closed body is filled itself, and a note
+lists the faces of its pockets and bores. `lacuna info IN` and `lacuna view IN` show all of them. A list is
+written with commas, walls=4,5,6, a table as in Lua, 'layers={count=8,bias=2}'.
 with=true joins the new cells to the deck that was read.
 )"},
 };

@@ -146,7 +146,18 @@ function commands.fill(...)
   local files = { first, second }
   for _, word in ipairs { ... } do
     local key, text = word:match "^([%a_][%w_]*)=(.*)$"
-    if key then options[call_of(key)][key] = value_of(key, text) else files[#files + 1] = word end
+    if not key then
+      files[#files + 1] = word
+    else
+      local call = options[call_of(key)]
+      local list, value = call[key], value_of(key, text)
+      -- A shell makes two words of faces={3,4}: faces=3 faces=4.
+      if list ~= nil then
+        if type(list) ~= "table" then list = { list } end
+        list[#list + 1], value = value, list
+      end
+      call[key] = value
+    end
   end
   local output = table.remove(files)
   local model = lacuna.load(files, options.load)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -26,50 +27,100 @@ const char* word(VolumeClass value, std::size_t mouths)
                                                    : "slot";
 }
 
-std::optional<Cavity> cavity(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
+/// Hollows that may be a cavity together.
+struct Candidate {
+    std::vector<FaceId> faces; ///< ascending
+    std::size_t mouths = 0;
+    double volume = 0; ///< about the volume [model length³]
+};
+
+/// Hollows that share a whole rim, merged, each before its parts; in the order of their first faces.
+std::vector<Candidate> candidates(const Model& model, const RunContext& context)
 {
-    const std::size_t mouths = rims(model, faces).size();
-    const auto readings = unless_refused([&] { return find_readings(model, faces, context); });
-    if (readings && readings->size() == 1) {
-        const VolumeClass value = readings->front().classification.value;
-        return Cavity{word(value, mouths), faces, value, readings->front().enclosed};
+    const std::vector<Hollow> found = hollows(model, context);
+    const std::vector<std::size_t> first = joined_hollows(model, found);
+    std::map<std::size_t, Candidate> by_root;
+    for (std::size_t h = 0; h < found.size(); ++h) {
+        if (std::ranges::count(first, first[h]) < 2) continue;
+        Candidate& joined = by_root[first[h]];
+        std::ranges::copy(found[h].faces, std::back_inserter(joined.faces));
+        joined.volume += found[h].volume;
     }
-    if (mouths > 0) return std::nullopt;
-    Model own = extract(model, faces);
-    orient_consistently(own);
-    return Cavity{word(VolumeClass::closed, mouths), faces, VolumeClass::closed,
-                  std::abs(volume_integral(own, all_faces(own)))};
+    std::vector<Candidate> result;
+    for (auto& [root, joined] : by_root) {
+        std::ranges::sort(joined.faces);
+        joined.mouths = rims(model, joined.faces).size();
+        result.push_back(std::move(joined));
+    }
+    for (const Hollow& hollow : found) result.push_back({hollow.faces, hollow.mouths, hollow.volume});
+    std::ranges::stable_sort(result, {}, [](const Candidate& one) { return one.faces.front(); });
+    return result;
 }
 
-/// Hollows that share a whole rim, merged.
-std::vector<std::vector<FaceId>> joined(const Model& model, const std::vector<Hollow>& hollows)
+std::optional<std::vector<Reading>> only_reading(const Model& model, const Candidate& candidate,
+                                                 const RunContext& context)
 {
-    const std::vector<std::size_t> first = joined_hollows(model, hollows);
-    std::map<std::size_t, std::vector<FaceId>> by_root;
-    for (std::size_t h = 0; h < hollows.size(); ++h)
-        if (std::ranges::count(first, first[h]) > 1)
-            std::ranges::copy(hollows[h].faces, std::back_inserter(by_root[first[h]]));
-    std::vector<std::vector<FaceId>> result;
-    for (auto& [root, faces] : by_root) {
-        std::sort(faces.begin(), faces.end());
-        result.push_back(std::move(faces));
-    }
-    return result;
+    auto readings = unless_refused([&] { return find_readings(model, candidate.faces, context); });
+    if (readings && readings->size() != 1) readings.reset();
+    return readings;
+}
+
+Cavity cavity_of(const Candidate& candidate, const Reading& reading)
+{
+    const VolumeClass value = reading.classification.value;
+    return {word(value, candidate.mouths), candidate.faces, value, reading.enclosed};
+}
+
+/// The faces of a model's bodies that lie in a cavity.
+std::vector<FaceId> faces_inside(const Model& model, const Reading& cavity, const RunContext& context)
+{
+    std::vector<FaceId> faces;
+    const OpenVolume& volume = cavity.sealed ? cavity.sealed->volume : cavity.volume;
+    const std::vector<FaceId> inside = bodies_inside(model, volume.model, context);
+    if (inside.empty()) return faces;
+    for (const std::vector<FaceId>& part : connected_parts(model, all_faces(model)))
+        if (std::ranges::find_first_of(part, inside) != part.end())
+            faces.insert(faces.end(), part.begin(), part.end());
+    return faces;
 }
 
 } // namespace
 
 std::vector<Cavity> cavities(const Model& model, const RunContext& context)
 {
-    const std::vector<Hollow> found = hollows(model, context);
-    std::vector<std::vector<FaceId>> groups;
-    for (const Hollow& hollow : found) groups.push_back(hollow.faces);
-    for (std::vector<FaceId>& faces : joined(model, found)) groups.push_back(std::move(faces));
-    std::ranges::stable_sort(groups, {}, [](const auto& faces) { return faces.front(); });
     std::vector<Cavity> result;
-    for (const std::vector<FaceId>& faces : groups) {
+    for (const Candidate& candidate : candidates(model, context)) {
         check_cancelled(context);
-        if (auto one = cavity(model, faces, context)) result.push_back(std::move(*one));
+        if (const auto readings = only_reading(model, candidate, context)) {
+            result.push_back(cavity_of(candidate, readings->front()));
+        } else if (candidate.mouths == 0) {
+            Model own = extract(model, candidate.faces);
+            orient_consistently(own);
+            result.push_back({word(VolumeClass::closed, 0), candidate.faces, VolumeClass::closed,
+                              std::abs(volume_integral(own, all_faces(own)))});
+        }
+    }
+    return result;
+}
+
+std::vector<Cavity> largest_cavities(const Model& model, std::size_t most, const RunContext& context)
+{
+    std::vector<Candidate> order = candidates(model, context);
+    std::erase_if(order, [](const Candidate& candidate) { return candidate.mouths == 0; });
+    std::ranges::stable_sort(order, std::greater(), &Candidate::volume);
+    std::vector<Cavity> result;
+    for (const Candidate& candidate : order) {
+        check_cancelled(context);
+        if (result.size() == most) break;
+        if (std::ranges::any_of(result, [&](const Cavity& larger) {
+                return std::ranges::includes(larger.faces, candidate.faces);
+            }))
+            continue;
+        const auto readings = only_reading(model, candidate, context);
+        if (!readings) continue;
+        Cavity& cavity = result.emplace_back(cavity_of(candidate, readings->front()));
+        std::ranges::copy(faces_inside(model, readings->front(), context), std::back_inserter(cavity.faces));
+        std::ranges::sort(cavity.faces);
     }
     return result;
 }

@@ -2,6 +2,8 @@
 #include <lacuna/fill/volume.h>
 
 #include <lacuna/closure/shared/along.h>
+#include <lacuna/closure/shared/cavities.h>
+#include <lacuna/closure/shared/trim.h>
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
@@ -13,6 +15,7 @@
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/left_out.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <functional>
@@ -25,6 +28,14 @@ namespace {
 
 using topology::Model;
 using topology::Roles;
+
+/// The faces that a request names; without any, all faces.
+std::vector<FaceId> named_faces(const Model& model, const RoleRequest& request)
+{
+    return request.roles   ? topology::all_faces(*request.roles)
+           : request.faces ? *request.faces
+                           : topology::all_faces(model);
+}
 
 /// Find the walls from the rim of the one named end.
 /// @return  reasons why the walls were chosen and why faces were left out.
@@ -147,6 +158,14 @@ RoleRequest joined_request(RoleRequest request, const JoinedParts& joined)
     return request;
 }
 
+[[noreturn]] void refuse_parts(std::size_t count)
+{
+    throw NotSweepable(Message("closure.fill_to",
+                               "open_volume: the void behind the plane of 'fill_to' is {} separate parts",
+                               found(count))
+                           .remedy("open the whole void, and volume:cut{{ plane = … }} gives each part"));
+}
+
 /// The part of a volume behind a plane.
 Volume part_behind(const Volume& volume, const geometry::Plane& plane, const RunContext& context)
 {
@@ -157,11 +176,7 @@ Volume part_behind(const Volume& volume, const geometry::Plane& plane, const Run
         const Model& model = piece.volume.model;
         return geometry::height(plane, topology::centroid_of(model, topology::all_faces(model))) > 0;
     });
-    if (pieces.size() != 1)
-        throw NotSweepable(Message("closure.fill_to",
-                                   "open_volume: the void behind the plane of 'fill_to' is {} separate parts",
-                                   found(pieces.size()))
-                               .remedy("open the whole void, and volume:cut{{ plane = … }} gives each part"));
+    if (pieces.size() != 1) refuse_parts(pieces.size());
     pieces.front().name = volume.name;
     return std::move(pieces.front());
 }
@@ -178,11 +193,86 @@ void take(closure::Reading found, Volume& volume)
     volume.no_roles = std::move(found.no_roles);
 }
 
+/// A model and the faces to open, with the options that are left to apply.
+struct Opening {
+    Model model;
+    RoleRequest request;
+};
+
+/// The opening of trimmed faces. Empty if a named end is gone.
+std::optional<Opening> opening_of(const RoleRequest& request, const Model& model, closure::Trimmed trimmed)
+{
+    JoinedParts parts;
+    parts.faces_of.resize(model.faces.size());
+    for (std::size_t f = 0; f < trimmed.parent.size(); ++f)
+        parts.faces_of[trimmed.parent[f].index()].emplace_back(f);
+    Opening opening{std::move(trimmed.model), joined_request(request, parts)};
+    if (request.roles) {
+        const Roles &before = *request.roles, &after = *opening.request.roles;
+        if (before.source.empty() != after.source.empty() || before.target.empty() != after.target.empty())
+            return std::nullopt;
+    }
+    return opening;
+}
+
+/// Cut the faces off at the level of `fill_to`. Empty if the plane crosses missing faces: then the volume
+/// must be closed before it is cut.
+std::optional<Opening> filled_to_level(const Model& model, const RoleRequest& request,
+                                       const RunContext& context)
+{
+    const std::vector<FaceId> named = named_faces(model, request);
+    auto trimmed = closure::trim(model, named, named, *request.fill_to, context);
+    if (!trimmed || trimmed->voids == 0) return std::nullopt;
+    const std::size_t voids = trimmed->voids;
+    const std::vector<FaceId> gone = trimmed->gone;
+    auto opening = opening_of(request, model, std::move(*trimmed));
+    if (!opening) return std::nullopt;
+    if (voids > 1) refuse_parts(voids);
+    if (!gone.empty())
+        log_line(context, formatted("note: left out, because the level of 'fill_to' lies below: {}",
+                                    topology::entities_of(model, gone)));
+    opening->request.fill_to.reset();
+    return opening;
+}
+
+/// Cut off the parts of faces that stick out of a flat rim of other faces.
+Opening without_overhangs(Opening opening, const RunContext& context)
+{
+    while (true) {
+        const Model& model = opening.model;
+        const std::vector<FaceId> named = named_faces(model, opening.request);
+        const auto found = closure::find_overhang(model, named);
+        auto trimmed = found ? closure::trim(model, named, found->faces, found->plane, context)
+                             : std::nullopt;
+        if (!trimmed) return opening;
+        std::vector<FaceId> lost = trimmed->cut;
+        std::ranges::copy(trimmed->gone, std::back_inserter(lost));
+        auto shorter = opening_of(opening.request, model, std::move(*trimmed));
+        if (!shorter) return opening;
+        log_line(context,
+                 formatted("note: cut off in the plane of the rim of {}, out of which they stick: {}",
+                           topology::entity_of(model, found->beside), topology::entities_of(model, lost)));
+        opening = std::move(*shorter);
+    }
+}
+
 /// Open a volume from a model in which touching solids no longer share faces.
-Volume open_apart(const Model& model, const RoleRequest& request, const RunContext& context)
+Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext& context)
 {
     report_progress(context, "roles");
     Volume volume;
+    Opening opening{whole, asked};
+    if (asked.find_walls) {
+        volume.role_reasons = find_walls(whole, *opening.request.roles, context);
+        topology::require_none_left_out(whole, topology::all_faces(*opening.request.roles), "walls");
+        opening.request.find_walls = false;
+    }
+    if (!asked.along && !asked.full_turn) {
+        if (asked.fill_to)
+            if (auto level = filled_to_level(whole, opening.request, context)) opening = std::move(*level);
+        opening = without_overhangs(std::move(opening), context);
+    }
+    const auto& [model, request] = opening;
     std::vector<FaceId> faces;
     if (!request.roles) faces = request.faces ? *request.faces : topology::all_faces(model);
     if (request.along) {
@@ -199,12 +289,7 @@ Volume open_apart(const Model& model, const RoleRequest& request, const RunConte
             volume.others.reset();
         }
     } else {
-        Roles roles = *request.roles;
-        if (request.find_walls) {
-            volume.role_reasons = find_walls(model, roles, context);
-            topology::require_none_left_out(model, topology::all_faces(roles), "walls");
-        }
-        volume.volume = topology::open_volume(model, roles, context);
+        volume.volume = topology::open_volume(model, *request.roles, context);
     }
     if (volume.closure && request.override_class && *request.override_class != volume.classification.value)
         throw InvalidInput(
@@ -224,12 +309,12 @@ Volume open_apart(const Model& model, const RoleRequest& request, const RunConte
             "a source alone and a path along which it is swept: not a class of the "
             "paper"};
     }
-    for (const FaceId face : topology::bodies_inside(model, volume.volume.model, context))
+    for (const FaceId face : topology::bodies_inside(whole, volume.volume.model, context))
         log_line(
             context,
             formatted("note: the body of {} lies inside the volume, and the mesh goes through it; name its "
                       "faces too if the mesh should leave it out",
-                      topology::entity_of(model, face)));
+                      topology::entity_of(whole, face)));
     if (request.reading > 0 || (request.full_turn && !request.roles)) volume.take_guess = true;
     volume.name = request.name;
     volume.material = request.material;
@@ -238,25 +323,106 @@ Volume open_apart(const Model& model, const RoleRequest& request, const RunConte
     return volume;
 }
 
-} // namespace
+/// Keep the first of equal entries of each list of faces.
+RoleRequest without_repeats(const Model& model, RoleRequest request, const RunContext& context)
+{
+    const auto clean = [&](std::vector<FaceId>& faces) {
+        std::set<FaceId> seen, twice;
+        std::erase_if(faces,
+                      [&](FaceId face) { return !seen.insert(face).second && (twice.insert(face), true); });
+        if (!twice.empty())
+            log_line(context, formatted("note: listed more than once, counted once: {}",
+                                        topology::entities_of(model, twice)));
+    };
+    if (request.faces) clean(*request.faces);
+    if (request.roles)
+        for (std::vector<FaceId>* list :
+             {&request.roles->source, &request.roles->target, &request.roles->walls})
+            clean(*list);
+    return request;
+}
 
-Volume open(const Model& model, const RoleRequest& request, const RunContext& context)
+/// If the user named no faces, a closed body is filled itself. Log the faces of its largest cavities.
+void note_body_filled(const Model& model, const RunContext& context)
+{
+    constexpr std::size_t kMostNamed = 2; // more would hide the first
+    std::string words;
+    for (const closure::Cavity& cavity : closure::largest_cavities(model, kMostNamed, context)) {
+        const auto tag = [&](FaceId face) { return std::to_string(model[face].tag); };
+        words += formatted("; for its {} of volume {:.4g} give faces={{{}}}", cavity.kind, cavity.volume,
+                           full_list(cavity.faces, tag));
+    }
+    if (!words.empty())
+        log_line(context, "note: no faces are named, so that the body itself is filled" + words);
+}
+
+/// Leave out what faces in contact cut off from the volume: parts that consist of pieces of split faces only,
+/// whose other pieces remain, such as the end of a tube behind the plate that it passes through.
+void leave_out_cut_off(const Model& before, const JoinedParts& joined, RoleRequest& request,
+                       const RunContext& context)
+{
+    if (request.find_walls || (!request.roles && !request.faces)) return;
+    std::vector<FaceId> parent(joined.model.faces.size());
+    for (const FaceId face : topology::all_faces(before))
+        for (const FaceId piece : joined.faces_of[face.index()]) parent[piece.index()] = face;
+    const auto is_split = [&](FaceId piece) {
+        return joined.faces_of[parent[piece.index()].index()].size() > 1;
+    };
+    std::set<FaceId> remaining; // split faces with a piece in a part that has other faces, too
+    std::vector<std::vector<FaceId>> apart;
+    for (const auto& part : topology::connected_parts(joined.model, named_faces(joined.model, request))) {
+        if (std::ranges::all_of(part, is_split))
+            apart.push_back(part);
+        else
+            for (const FaceId piece : part) remaining.insert(parent[piece.index()]);
+    }
+    std::set<FaceId> gone, of;
+    for (const std::vector<FaceId>& part : apart) {
+        if (!std::ranges::all_of(part,
+                                 [&](FaceId piece) { return remaining.contains(parent[piece.index()]); }))
+            continue;
+        gone.insert(part.begin(), part.end());
+        for (const FaceId piece : part) of.insert(parent[piece.index()]);
+    }
+    if (gone.empty()) return;
+    const auto clean = [&](std::vector<FaceId>& faces) {
+        std::erase_if(faces, [&](FaceId face) { return gone.contains(face); });
+    };
+    if (request.faces) clean(*request.faces);
+    if (request.roles)
+        for (std::vector<FaceId>* list :
+             {&request.roles->source, &request.roles->target, &request.roles->walls})
+            clean(*list);
+    log_line(context, formatted("note: left out behind the faces that they touch: parts of {}",
+                                topology::entities_of(before, of)));
+}
+
+Volume open_named(const Model& model, const RoleRequest& request, const RunContext& context)
 {
     if (request.along || request.full_turn) return open_apart(model, request, context);
-    const std::vector<FaceId> named = request.roles   ? topology::all_faces(*request.roles)
-                                      : request.faces ? *request.faces
-                                                      : topology::all_faces(model);
+    const std::vector<FaceId> named = named_faces(model, request);
     report_progress(context, "roles");
     auto left = request.find_walls ? leave_out_double_faces(model, named) : std::nullopt;
     if (!left) left = leave_out_shared_faces(model, named, request.find_walls);
     if (left) {
         log_line(context, left->note);
-        return open(left->model, joined_request(request, *left), context);
+        return open_named(left->model, joined_request(request, *left), context);
     }
     const auto joined = join_touching_parts(model, named, request.find_walls, context);
     if (!joined) return open_apart(model, request, context);
     log_line(context, joined->note);
-    return open_apart(joined->model, joined_request(request, *joined), context);
+    RoleRequest own = joined_request(request, *joined);
+    leave_out_cut_off(model, *joined, own, context);
+    return open_apart(joined->model, own, context);
+}
+
+} // namespace
+
+Volume open(const Model& model, const RoleRequest& request, const RunContext& context)
+{
+    Volume volume = open_named(model, without_repeats(model, request, context), context);
+    if (!request.roles && !request.faces && !request.full_turn) note_body_filled(model, context);
+    return volume;
 }
 
 } // namespace lacuna::fill

@@ -188,8 +188,9 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
         std::sort(faces.begin(), faces.end());
         const bool flat = std::all_of(faces.begin(), faces.end(),
                                       [&](FaceId face) { return model[face].kind == "plane"; });
-        if ((flat && faces.size() < 3) || !(capped_volume(model, faces) < 0)) continue;
-        found.push_back({faces, rims(model, faces).size()});
+        const double volume = -capped_volume(model, faces);
+        if ((flat && faces.size() < 3) || !(volume > 0)) continue;
+        found.push_back({faces, rims(model, faces).size(), volume});
     }
     return found;
 }

@@ -26,7 +26,7 @@ namespace {
 
 SectionPlace place_between(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Project points onto a surface and a plane, the surface last.
+/// Project points onto a surface and a plane, the plane last.
 void lay_onto(const geometry::ExactSurface& surface, const geometry::Plane& plane, std::span<Vec3> points,
               std::span<Vec2> uv, double tolerance, const RunContext& context)
 {
@@ -37,8 +37,8 @@ void lay_onto(const geometry::ExactSurface& surface, const geometry::Plane& plan
             off = std::max(off, std::abs(h));
             p -= h * plane.normal;
         }
-        surface.project(points, uv, context);
         if (i > 0 && off <= 1e-3 * tolerance) return;
+        surface.project(points, uv, context);
     }
 }
 

@@ -22,6 +22,7 @@ void orient_skin(Model& model, const RunContext& context = {});
 struct Hollow {
     std::vector<FaceId> faces; ///< ascending
     std::size_t mouths = 0;    ///< number of rims: 0 a void inside the solid, 1 a pocket, 2 or more a bore
+    double volume = 0;         ///< with each rim closed by a cone to the centre of the faces [model length³]
 };
 
 /// The hollows of closed skins. Hollow: a set of faces that are connected over concave or smooth edges, and

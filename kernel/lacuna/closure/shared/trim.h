@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/topology/model.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Faces without their parts in front of a plane.
+struct Trimmed {
+    topology::Model model;
+    std::vector<FaceId> parent; ///< for each face of `model`, the face that it was part of
+    std::vector<FaceId> cut;    ///< faces that lost a part
+    std::vector<FaceId> gone;   ///< faces that lie wholly in front of the plane, or in it
+    /// Number of separate voids behind the plane if a flat face closes each of its regions; 0 if no rim lies
+    /// in the plane.
+    std::size_t voids = 0;
+};
+
+/// Cut the parts in front of a plane off some faces, before the volume is closed. The rims that remain in the
+/// plane determine a flat missing face.
+/// @param faces    the faces of the volume.
+/// @param crossed  those of them that are cut; the others stay whole.
+/// @return  empty if the plane crosses a missing face: then only the closed volume tells where it is cut.
+/// @throw InvalidInput  the errors of `topology::imprint_walks()`.
+/// @note  O(facets).
+std::optional<Trimmed> trim(const topology::Model& model, const std::vector<FaceId>& faces,
+                            const std::vector<FaceId>& crossed, const geometry::Plane& plane,
+                            const RunContext& context = {});
+
+/// Faces that stick out of a flat rim of other faces.
+struct Overhang {
+    geometry::Plane plane;     ///< of the rim; its normal points out of the volume
+    std::vector<FaceId> faces; ///< a connected part that crosses the plane inside the rim
+    FaceId beside;             ///< a face beside the rim
+};
+
+/// The first part of a volume's faces that sticks out of a flat rim of another part, such as a shaft that is
+/// longer than its sleeve. The other part lies behind the plane of its rim. Parts with given quads that cross
+/// the plane are none.
+/// @note  O(facets) for each rim and part.
+std::optional<Overhang> find_overhang(const topology::Model& model, const std::vector<FaceId>& faces);
+
+} // namespace lacuna::closure

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/shared/trim.h>
+
+#include <lacuna/closure/detail/outline.h>
+#include <lacuna/closure/detail/pieces.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/section.h>
+#include <lacuna/topology/shared/use_places.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+struct Range {
+    double low = kInfinity, high = -kInfinity; ///< of heights above a plane [model length]
+};
+
+Range heights(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane)
+{
+    Range range;
+    for (const FaceId face : faces)
+        for (const Index p : corners_of(model[face])) {
+            const double h = geometry::height(plane, model.at(p));
+            range.low = std::min(range.low, h);
+            range.high = std::max(range.high, h);
+        }
+    return range;
+}
+
+/// The number of separate voids behind the plane that some faces bound together with the regions of the plane
+/// between their rims. Parts without a rim in the plane do not count.
+std::size_t count_voids(const Model& model, const geometry::Plane& plane)
+{
+    const std::vector<std::vector<FaceId>> parts = connected_parts(model, all_faces(model));
+    std::vector<std::vector<Vec2>> loops;
+    std::vector<std::size_t> part_of; // by loop
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const Rim& rim : rims(model, parts[p])) {
+            const std::vector<Vec3> places = loop_places(model, rim.uses);
+            if (!std::ranges::all_of(places, [&](const Vec3& place) {
+                    return std::abs(geometry::height(plane, place)) <= model.tolerance;
+                }))
+                continue;
+            loops.push_back(flat_places(plane, places));
+            part_of.push_back(p);
+        }
+    geometry::UnionFind sets(parts.size());
+    for (const std::vector<std::size_t>& region : regions_of(loops))
+        for (const std::size_t loop : region) sets.unite_least(part_of[region.front()], part_of[loop]);
+    std::set<std::size_t> voids;
+    for (const std::size_t part : part_of) voids.insert(sets.find(part));
+    return voids.size();
+}
+
+/// Whether a given quad has corners on both sides of the plane.
+bool crosses_quads(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane)
+{
+    return std::ranges::any_of(faces, [&](FaceId face) {
+        return std::ranges::any_of(model[face].given_quads, [&](const Quad& quad) {
+            Range range;
+            for (const Index p : quad) {
+                range.low = std::min(range.low, geometry::height(plane, model.at(p)));
+                range.high = std::max(range.high, geometry::height(plane, model.at(p)));
+            }
+            return range.low < -model.tolerance && range.high > model.tolerance;
+        });
+    });
+}
+
+/// Whether a plane crosses faces in closed lines only, all inside a loop in that plane.
+bool crosses_inside(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane,
+                    const std::vector<Vec3>& loop)
+{
+    const std::vector<SectionWalk> walks = section_walks(model, faces, plane, model.tolerance);
+    const std::vector<Vec2> around = flat_places(plane, loop);
+    return !walks.empty() && std::ranges::all_of(walks, [&](const SectionWalk& walk) {
+        return walk.closed && std::ranges::all_of(walk.places, [&](const SectionPlace& place) {
+                   const Vec3 p = place_at(model, place, plane);
+                   return geometry::lies_inside(around, geometry::to_plane(plane, p));
+               });
+    });
+}
+
+/// A face of a part beside one of its rims.
+FaceId face_beside(const Model& model, const std::vector<FaceId>& part, const Rim& rim)
+{
+    return *std::ranges::find_if(
+        part, [&](FaceId face) { return edges_of(model, {face}).contains(rim.uses.front().edge); });
+}
+
+/// The plane of a rim if the rim is flat and its part lies on one side of it, which is behind the plane.
+std::optional<geometry::Plane> plane_of_end(const Model& model, const std::vector<FaceId>& part,
+                                            const std::vector<Vec3>& rim)
+{
+    geometry::Plane plane = geometry::newell_plane(std::array{rim});
+    if (!std::ranges::all_of(
+            rim, [&](const Vec3& p) { return std::abs(geometry::height(plane, p)) <= model.tolerance; }))
+        return std::nullopt;
+    Range range = heights(model, part, plane);
+    if (-range.low < range.high) {
+        plane = geometry::plane_across(plane.origin, -plane.normal);
+        range = {-range.high, -range.low};
+    }
+    if (range.high > model.tolerance || range.low > -model.tolerance) return std::nullopt;
+    return plane;
+}
+
+} // namespace
+
+std::optional<Trimmed> trim(const Model& model, const std::vector<FaceId>& faces,
+                            const std::vector<FaceId>& crossed, const geometry::Plane& plane,
+                            const RunContext& context)
+{
+    const Model own = extract(model, faces);
+    std::vector<char> may_lose(faces.size(), 0);
+    std::vector<FaceId> cut;
+    for (const FaceId face : all_faces(own)) {
+        may_lose[face.index()] = std::ranges::find(crossed, faces[face.index()]) != crossed.end() ? 1 : 0;
+        if (may_lose[face.index()] != 0) cut.push_back(face);
+    }
+    const std::vector<SectionWalk> walks = section_walks(own, cut, plane, own.tolerance);
+    if (!std::ranges::all_of(walks, &SectionWalk::closed)) return std::nullopt;
+    ModelBuilder builder(own);
+    const WalkImprint made = imprint_walks(builder, walks, plane, own.tolerance, context);
+    const Model split = std::move(builder).finish();
+    std::vector<FaceId> kept;
+    std::set<FaceId> kept_of, lost_of;
+    Trimmed result;
+    for (const FaceId face : all_faces(split)) {
+        const std::size_t parent = made.parent[face.index()].index();
+        if (may_lose[parent] != 0 && heights(split, {face}, plane).low >= -split.tolerance) {
+            lost_of.insert(faces[parent]);
+            continue;
+        }
+        kept.push_back(face);
+        kept_of.insert(faces[parent]);
+        result.parent.push_back(faces[parent]);
+    }
+    for (const FaceId face : lost_of) (kept_of.contains(face) ? result.cut : result.gone).push_back(face);
+    result.model = extract(split, kept);
+    result.voids = count_voids(result.model, plane);
+    return result;
+}
+
+std::optional<Overhang> find_overhang(const Model& model, const std::vector<FaceId>& faces)
+{
+    const std::vector<std::vector<FaceId>> parts = connected_parts(model, faces);
+    if (parts.size() < 2) return std::nullopt;
+    for (const std::vector<FaceId>& around : parts)
+        for (const Rim& rim : rims(model, around)) {
+            const std::vector<Vec3> loop = loop_places(model, rim.uses);
+            const auto plane = plane_of_end(model, around, loop);
+            if (!plane) continue;
+            for (const std::vector<FaceId>& part : parts) {
+                const Range range = heights(model, part, *plane);
+                if (range.low < -model.tolerance && range.high > model.tolerance && &part != &around &&
+                    !crosses_quads(model, part, *plane) && crosses_inside(model, part, *plane, loop))
+                    return Overhang{*plane, part, face_beside(model, around, rim)};
+            }
+        }
+    return std::nullopt;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,187 @@
+-- SPDX-License-Identifier: MIT
+-- Parts that stick out of their partner, levels at a rim, faces named twice, bodies that are opened whole.
+-- usage: lacuna overhangs.lua lacuna=PROGRAM scratch=FOLDER
+local lacuna = require "lacuna"
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local params = lacuna.params { lacuna = "lacuna", scratch = "." }
+
+--- Solids from lines of Gmsh's language, with Open CASCADE.
+local function solids(name, text)
+  local path = params.scratch .. "/" .. name .. ".geo"
+  check.write(path, 'SetFactory("OpenCASCADE");\n' .. text)
+  return lacuna.load(path), path
+end
+
+local function volume_of(model, roles, size)
+  local quality = model:open_volume(roles):sweep({ size = size, fallback = "mixed" }):quality()
+  check.that(quality.certified)
+  return quality.volume, quality
+end
+
+--- A sleeve from z = 0 to 100, and a shaft in it.
+local function sleeved(from, to, off)
+  return solids("sleeved", ([[
+Cylinder(1) = {0,0,0, 0,0,100, 60};  Cylinder(2) = {0,0,0, 0,0,100, 50};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(4) = {%g,0,%g, 0,0,%g, 30};]]):format(off, from, to - from))
+end
+
+local function bore(model) return model:face { kind = "cylinder", radius = { 49, 51 } } end
+local function shaft(model) return model:face { kind = "cylinder", radius = { 29, 31 } } end
+
+-- --- parts that stick out ----------------------------------------------------------------------------------
+
+for _, ends in ipairs { { -20, 120 }, { 0, 120 }, { -30, 100 } } do
+  for _, off in ipairs { 0, 8 } do
+    local model = sleeved(ends[1], ends[2], off)
+    local at = ("shaft from %g to %g, %g off"):format(ends[1], ends[2], off)
+    local both = { shaft(model), bore(model) }
+    for _, roles in ipairs { { walls = both }, { faces = both } } do
+      local volume, quality = volume_of(model, roles, 8)
+      check.that(math.abs(volume / (math.pi * 1600 * 100) - 1) < 0.02, ("%s: %g"):format(at, volume))
+      check.that(quality.min_scaled_jacobian > 0.5, at)
+      -- Its ends are flat.
+      local closed = model:open_volume(roles)
+      closed:close()
+      for _, face in ipairs(closed:model():faces()) do
+        check.that(face.box[1][3] > -1e-6 and face.box[2][3] < 100 + 1e-6, at .. ": beyond the sleeve")
+      end
+    end
+  end
+end
+do -- A level below the upper rim is another such plane.
+  local model = sleeved(-20, 120, 0)
+  local volume = volume_of(model, { faces = { shaft(model), bore(model) },
+    fill_to = { { 0, 0, 90 }, { 0, 0, 1 } } }, 8)
+  check.that(math.abs(volume / (math.pi * 1600 * 90) - 1) < 0.02, tostring(volume))
+end
+
+-- Tubes through the plates at both ends of a shell.
+do
+  local model = solids("exchanger", [[
+Cylinder(1) = {0,0,0, 100,0,0, 34};  Cylinder(2) = {4,0,0, 92,0,0, 30};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(4) = {0,12,0, 100,0,0, 6};  Cylinder(5) = {0,-12,0, 100,0,0, 6};
+BooleanDifference(6) = { Volume{3}; Delete; }{ Volume{4,5}; Delete; };
+Cylinder(7) = {-15,12,0, 130,0,0, 6};  Cylinder(8) = {-15,-12,0, 130,0,0, 6};]])
+  local walls = model:faces { kind = "cylinder", radius = { 5.9, 6.1 } }
+  walls[#walls + 1] = model:face { kind = "cylinder", radius = { 29, 31 } }
+  local function plate(x) return model:face { kind = "plane", near = { x, 0, 25 } } end
+  local volume = volume_of(model, { source = plate(4), target = plate(96), walls = walls }, 5)
+  local exact = 92 * math.pi * (900 - 2 * 36)
+  check.that(math.abs(volume / exact - 1) < 0.02, ("tubes: %g, exact %g"):format(volume, exact))
+end
+
+-- --- levels at a rim ---------------------------------------------------------------------------------------
+
+do
+  local model = solids("canal", [[
+Cylinder(1) = {0,0,0, 0,0,80, 16};  Cylinder(2) = {0,0,20, 0,0,60, 10};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(4) = {0,0,30, 0,0,80, 5};]])
+  local function round(r) return model:face { kind = "cylinder", radius = { r - 1, r + 1 } } end
+  local function flat(z) return model:face { kind = "plane", near = { 0, 0, z } } end
+  local canal, stem, floor, tip, head = round(10), round(5), flat(20), flat(30), flat(110)
+  for _, level in ipairs { 80, 79.99, 60 } do
+    local exact = math.pi * (100 * (level - 20) - 25 * (level - 30))
+    for i, roles in ipairs {
+      { faces = { floor, canal, stem, tip } },
+      { faces = { floor, canal, stem, tip, head } },
+      { source = { floor }, target = { tip }, walls = { canal, stem } },
+      { source = { floor, tip }, walls = { canal, stem } },
+    } do
+      roles.fill_to = { { 0, 0, level }, { 0, 0, 1 } }
+      local volume = volume_of(model, roles, 2)
+      check.that(math.abs(volume / exact - 1) < 0.02,
+        ("level %g, roles %d: %g, exact %g"):format(level, i, volume, exact))
+    end
+  end
+  -- Without a level, the rim of the canal is the level.
+  local volume = volume_of(model, { faces = { floor, canal, stem, tip } }, 2)
+  check.that(math.abs(volume / (math.pi * (6000 - 1250)) - 1) < 0.02, tostring(volume))
+end
+
+local kTray = [[
+Box(1) = {0,0,0, 120,80,25};  Box(2) = {3,3,3, 114,74,22};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Box(4) = {30,20,9, 60,40,2};]]
+do
+  local model = solids("tray", kTray)
+  local inner = model:faces { box = { { 2.9, 2.9, 2.9 }, { 117.1, 77.1, 25.1 } } }
+  for level, taken in pairs { [25] = 4800, [20] = 4800, [8] = 0 } do
+    local exact = 114 * 74 * (level - 3) - taken
+    local void = model:open_volume { faces = inner, fill_to = { { 0, 0, level }, { 0, 0, 1 } } }
+    local mesh = void:sweep { size = 8 }
+    check.near(mesh:quality().volume, exact, 1e-6 * exact)
+    local most = -math.huge
+    for i = 1, mesh.nodes do most = math.max(most, (select(3, mesh:node(i)))) end
+    check.equal(most, level, "nodes on the level")
+  end
+  check.fails(function()
+    model:open_volume { faces = inner, fill_to = { { 0, 0, 30 }, { 0, 0, 1 } } }
+  end, "closure.cut_misses")
+end
+
+-- --- faces named twice -------------------------------------------------------------------------------------
+
+do
+  local model = sleeved(0, 100, 0)
+  local a, b = shaft(model), bore(model)
+  local exact = volume_of(model, { faces = { a, b } }, 8)
+  check.equal(volume_of(model, { faces = { a, b, a } }, 8), exact)
+  check.equal(volume_of(model, { walls = { a, b, b } }, 8), exact)
+  check.fails(function() model:open_volume { source = { a }, walls = { a, b } } end, "topology.face_twice")
+end
+
+-- --- a body opened whole -----------------------------------------------------------------------------------
+
+--- What the program says of `lacuna fill` on standard error, and the volume that it prints.
+local function fill(path, ...)
+  local code, out, err = check.run(params.lacuna, params.scratch, { "fill", path, "filled.vtu", "size=8",
+    "fallback=mixed", ... })
+  check.equal(code, 0, err)
+  return tonumber(out:match "volume:? +([%d.e+-]+)"), err
+end
+
+--- The faces that a note gives for a cavity, each as a word of the command line.
+local function advised(err)
+  local words = {}
+  for tag in (err:match "faces={([%d, ]+)}" or ""):gmatch "%d+" do words[#words + 1] = "faces=" .. tag end
+  return table.unpack(words)
+end
+
+do
+  local _, path = solids("tray", kTray)
+  local whole, err = fill(path)
+  check.that(err:find("the body itself is filled", 1, true), err)
+  local resin, silent = fill(path, advised(err))
+  check.that(not silent:find("itself", 1, true), silent)
+  check.near(resin, 114 * 74 * 22 - 4800, 1e-3 * resin)
+  check.near(whole, 120 * 80 * 25 - 114 * 74 * 22 + 4800, 1e-3 * whole)
+
+  local _, tube = solids("tube", [[
+Cylinder(1) = {0,0,0, 0,0,100, 60};  Cylinder(2) = {0,0,0, 0,0,100, 50};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])
+  _, err = fill(tube)
+  check.that(math.abs(fill(tube, advised(err)) / (math.pi * 2500 * 100) - 1) < 0.02, err)
+
+  local _, block = solids("block", "Box(1) = {0,0,0, 20,20,20};")
+  _, err = fill(block)
+  check.that(not err:find("note", 1, true), err)
+end
+
+-- --- bores that cross --------------------------------------------------------------------------------------
+
+do
+  local tee = solids("tee", [[
+Cylinder(1) = {0,0,-60, 0,0,120, 25};  Cylinder(2) = {0,0,0, 70,0,0, 18};
+BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(4) = {0,0,-60, 0,0,120, 20};  Cylinder(5) = {0,0,0, 70,0,0, 12.5};
+BooleanUnion(6) = { Volume{4}; Delete; }{ Volume{5}; Delete; };
+BooleanDifference(7) = { Volume{3}; Delete; }{ Volume{6}; Delete; };]])
+  local all = tee:cavities()
+  for _, cavity in ipairs(all) do check.that(cavity.volume <= all[1].volume) end
+  check.that(all[1].volume > math.pi * 400 * 120)
+end
+
+check.done()
