@@ -183,8 +183,8 @@ TEST_CASE("every kind of damage is found and named")
     CHECK(fault([](auto& mesh) { std::swap(mesh.quads[6][1], mesh.quads[6][3]); }).find("side") !=
           std::string::npos);
     CHECK(fault([](auto& mesh) { mesh.quads[6][1] = mesh.quads[6][3]; }).find("twice") != std::string::npos);
-    CHECK(fault([](auto& mesh) { mesh.quads[6][1] = 1000; }).find("no point") != std::string::npos);
-    CHECK(fault([](auto& mesh) { mesh.quads[6][1] = -1; }).find("no point") != std::string::npos);
+    CHECK(fault([](auto& mesh) { mesh.quads[6][1] = 1000; }).find("not a point") != std::string::npos);
+    CHECK(fault([](auto& mesh) { mesh.quads[6][1] = -1; }).find("not a point") != std::string::npos);
     CHECK(fault([](auto& mesh) { mesh.points.emplace_back(0, 0); }).find("has no quad") != std::string::npos);
     CHECK(fault([&](auto& mesh) {
               mesh.points[static_cast<std::size_t>(inner)] += Vec2(1.2, 0);

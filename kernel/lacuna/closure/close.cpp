@@ -19,6 +19,7 @@
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
@@ -124,14 +125,18 @@ constexpr double kBend = 100 * kDegree;
 /// alternative.
 constexpr double kLean = 20 * kDegree;
 
-/// Whether all rims of both ends are circles. A straight tube has no two circles that are inclined to each
-/// other.
+/// Whether both ends are flat and all their rims are circles. A straight tube has no two such ends that are
+/// inclined to each other.
 bool has_round_ends(const OpenVolume& volume)
 {
+    const Model& model = volume.model;
     const auto is_round = [&](Role end) {
-        return std::ranges::all_of(rims(volume.model, volume.faces(end)), [&](const Rim& rim) {
-            return radius_of_circle(volume.model, rim).has_value();
-        });
+        const std::vector<FaceId> faces = volume.faces(end);
+        const auto plane = plane_of(model, faces.front());
+        const auto in_plane = [&](FaceId face) { return lies_in_plane(model, face, *plane); };
+        return plane && std::ranges::all_of(faces, in_plane) &&
+               std::ranges::all_of(rims(model, faces),
+                                   [&](const Rim& rim) { return radius_of_circle(model, rim).has_value(); });
     };
     return is_round(Role::source) && is_round(Role::target);
 }
