@@ -125,12 +125,13 @@ end
 -- Where the side of a ledge and of a pile above the level are one face, a few are refused.
 check.that(refused <= 0.05 * tried, ("%d of %d levels refused"):format(refused, tried))
 
--- Levels above the brim and planes that are none.
-local model, roles = tray({ { 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 } }, 3)
-for _, wrong in ipairs { { 99, "closure.cut_misses" }, { deep * unit, "closure.cut_misses" } } do
-  roles.fill_to = { { 0, 0, wrong[1] }, { 0, 0, 1 } }
-  check.fails(function() model:open_volume(roles) end, wrong[2])
-end
+-- A level at the brim fills the tray; levels above it, and planes that are none, are refused.
+local model, roles, volume = tray({ { 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 } }, 3)
+roles.fill_to = { { 0, 0, deep * unit }, { 0, 0, 1 } }
+local to_brim = model:open_volume(roles):sweep({ size = 2 }):quality().volume
+check.that(math.abs(to_brim / volume - 1) < 1e-9, "brim: " .. to_brim)
+roles.fill_to = { { 0, 0, 99 }, { 0, 0, 1 } }
+check.fails(function() model:open_volume(roles) end, "closure.cut_misses")
 for _, wrong in ipairs { 3, { { 0, 0, 1 } }, { { 0, 0, 1 }, { 0, 0, 0 } } } do
   roles.fill_to = wrong
   check.fails(function() model:open_volume(roles) end, "fill_to")

@@ -205,7 +205,7 @@ wrong("synthetic.prism", "sides", { 2, 3.5, "6" }, "at least 3")
 wrong("synthetic.prism", "radius", { 0, -1, huge }, "a positive number")
 wrong("synthetic.prism", "holes", { -1, 0.5 }, "at least 0")
 wrong("synthetic.prism", "bend", { 300 }, "folds")
-wrong("synthetic.prism", "drop", { { "wall_7" }, { "sauce" } }, "no face of this volume")
+wrong("synthetic.prism", "drop", { { "wall_7" }, { "sauce" } }, "not a face of this volume")
 wrong("synthetic.annulus", "inner", { 1, 2 }, "below 'outer'")
 wrong("synthetic.elbow", "bend_radius", { 0.5, 1 }, "above 'radius'")
 

@@ -36,7 +36,7 @@ for _, ends in ipairs { { -20, 120 }, { 0, 120 }, { -30, 100 } } do
     local model = sleeved(ends[1], ends[2], off)
     local at = ("shaft from %g to %g, %g off"):format(ends[1], ends[2], off)
     local both = { shaft(model), bore(model) }
-    for _, roles in ipairs { { walls = both }, { faces = both } } do
+    for _, roles in ipairs { { walls = both }, { source = both[1], target = both[2] } } do
       local volume, quality = volume_of(model, roles, 8)
       check.that(math.abs(volume / (math.pi * 1600 * 100) - 1) < 0.02, ("%s: %g"):format(at, volume))
       check.that(quality.min_scaled_jacobian > 0.5, at)
@@ -51,7 +51,7 @@ for _, ends in ipairs { { -20, 120 }, { 0, 120 }, { -30, 100 } } do
 end
 do -- A level below the upper rim is another such plane.
   local model = sleeved(-20, 120, 0)
-  local volume = volume_of(model, { faces = { shaft(model), bore(model) },
+  local volume = volume_of(model, { walls = { shaft(model), bore(model) },
     fill_to = { { 0, 0, 90 }, { 0, 0, 1 } } }, 8)
   check.that(math.abs(volume / (math.pi * 1600 * 90) - 1) < 0.02, tostring(volume))
 end
@@ -81,7 +81,7 @@ Cylinder(4) = {0,0,30, 0,0,80, 5};]])
     end
   end
   -- Without a level, the rim of the canal is the level.
-  local volume = volume_of(model, { faces = { floor, canal, stem, tip } }, 2)
+  local volume = volume_of(model, { source = { floor, tip }, walls = { canal, stem } }, 2)
   check.that(math.abs(volume / (math.pi * (6000 - 1250)) - 1) < 0.02, tostring(volume))
 end
 
@@ -114,7 +114,8 @@ do
   local exact = volume_of(model, { faces = { a, b } }, 8)
   check.equal(volume_of(model, { faces = { a, b, a } }, 8), exact)
   check.equal(volume_of(model, { walls = { a, b, b } }, 8), exact)
-  check.fails(function() model:open_volume { source = { a }, walls = { a, b } } end, "topology.face_in_two_roles")
+  check.fails(function() model:open_volume { source = { a }, walls = { a, b } } end,
+    "topology.face_in_two_roles")
 end
 
 -- --- a body opened whole -----------------------------------------------------------------------------------

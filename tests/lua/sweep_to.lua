@@ -241,7 +241,7 @@ local function refused(name, options, ...)
   check.that(not io.open(path(name), "rb"), name .. " is there")
 end
 refused("no.txt", { layers = 4 }, ".exo .e")
-refused("no.msh", { layers = 4, write = { partitions = 5 } }, "4 layers")
+refused("no.msh", { layers = 4, write = { partitions = 5 } }, "layers is 4")
 refused("no.pvtu", { layers = 4, write = { partitions = 0 } }, "partitions")
 refused("no.msh", { layers = 4, write = { partitions = 2, version = 2.2 } }, "4.1")
 refused("no.msh", { layers = 4, write = { ghosts = 1 } }, "ghosts", "partitions")

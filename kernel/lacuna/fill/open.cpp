@@ -262,7 +262,7 @@ Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext
     report_progress(context, "roles");
     Volume volume;
     Opening opening{whole, asked};
-    if (asked.find_walls) {
+    if (asked.find_walls && !asked.along) {
         volume.role_reasons = find_walls(whole, *opening.request.roles, context);
         topology::require_none_left_out(whole, topology::all_faces(*opening.request.roles), "walls");
         opening.request.find_walls = false;
@@ -270,7 +270,8 @@ Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext
     if (!asked.along && !asked.full_turn) {
         if (asked.fill_to)
             if (auto level = filled_to_level(whole, opening.request, context)) opening = std::move(*level);
-        opening = without_overhangs(std::move(opening), context);
+        // Among faces without roles, faces at the step may be missing instead.
+        if (opening.request.roles) opening = without_overhangs(std::move(opening), context);
     }
     const auto& [model, request] = opening;
     std::vector<FaceId> faces;
