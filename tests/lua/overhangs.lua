@@ -80,6 +80,22 @@ Cylinder(4) = {0,0,30, 0,0,80, 5};]])
         ("level %g, roles %d: %g, exact %g"):format(level, i, volume, exact))
     end
   end
+  -- Where the side of the stem is not named, no face at the level closes the void.
+  for _, level in ipairs { 80, 79.99 } do
+    check.fails(function()
+      local roles = { source = floor, target = tip, walls = "auto" }
+      roles.fill_to = { { 0, 0, level }, { 0, 0, 1 } }
+      model:open_volume(roles):sweep { size = 2, fallback = "mixed" }
+    end)
+  end
+  -- A level leaves the sweep as it is.
+  for _, level in ipairs { 80, 79.99, 60 } do
+    local volume, quality = volume_of(model, { source = floor, walls = "auto",
+      fill_to = { { 0, 0, level }, { 0, 0, 1 } } }, 2)
+    local exact = math.pi * 100 * (level - 20)
+    check.that(math.abs(volume / exact - 1) < 0.02, ("level %g: %g, exact %g"):format(level, volume, exact))
+    check.that(quality.min_scaled_jacobian > 0.6, ("level %g"):format(level))
+  end
   -- Without a level, the rim of the canal is the level.
   local volume = volume_of(model, { source = { floor, tip }, walls = { canal, stem } }, 2)
   check.that(math.abs(volume / (math.pi * (6000 - 1250)) - 1) < 0.02, tostring(volume))

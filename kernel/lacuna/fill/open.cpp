@@ -18,6 +18,7 @@
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 #include <utility>
@@ -166,9 +167,48 @@ RoleRequest joined_request(RoleRequest request, const JoinedParts& joined)
                            .remedy("open the whole void, and volume:cut{{ plane = … }} gives each part"));
 }
 
+/// Whether the plane only touches the volume from outside, along a face of it that may be missing.
+bool is_brim(const Volume& volume, const geometry::Plane& plane)
+{
+    const Model& model = volume.volume.model;
+    const auto height = [&](Index p) { return geometry::height(plane, model.at(p)); };
+    const auto is_in = [&](Index p) { return std::abs(height(p)) <= model.tolerance; };
+    const auto is_face_in = [&](FaceId face) {
+        return std::ranges::all_of(topology::corners_of(model[face]), is_in);
+    };
+    const auto is_edge_in = [&](EdgeId edge) { return std::ranges::all_of(model[edge].points, is_in); };
+    const std::vector<FaceId> faces = topology::all_faces(model);
+    if (std::ranges::any_of(faces, [&](FaceId face) {
+            return std::ranges::any_of(topology::corners_of(model[face]),
+                                       [&](Index p) { return height(p) > model.tolerance; });
+        }))
+        return false;
+    const std::vector<EdgeId> free = topology::free_edges(volume.volume);
+    const bool lacks_end = volume.volume.faces(topology::Role::source).empty() ||
+                           volume.volume.faces(topology::Role::target).empty();
+    return std::ranges::any_of(faces, is_face_in) ||
+           (std::ranges::any_of(free, is_edge_in) && (lacks_end || std::ranges::all_of(free, is_edge_in)));
+}
+
+/// Log the walls of a volume that no part of it behind the plane has.
+void note_above(const Volume& volume, const Volume& behind, const RunContext& context)
+{
+    std::set<int> kept;
+    for (const topology::Face& face : behind.volume.model.faces) kept.insert(face.tag);
+    std::vector<FaceId> above = volume.volume.faces(topology::Role::wall);
+    std::erase_if(above, [&](FaceId face) {
+        const topology::Face& own = volume.volume.model[face];
+        return own.origin != topology::Origin::given || kept.contains(own.tag);
+    });
+    if (!above.empty())
+        log_line(context, formatted("note: left out, because the level of 'fill_to' lies below: {}",
+                                    topology::entities_of(volume.volume.model, above)));
+}
+
 /// The part of a volume behind a plane.
 Volume part_behind(const Volume& volume, const geometry::Plane& plane, const RunContext& context)
 {
+    if (!volume.along && is_brim(volume, plane)) return volume;
     Cut where;
     where.plane = plane;
     std::vector<Volume> pieces = cut(volume, where, context);
@@ -177,6 +217,7 @@ Volume part_behind(const Volume& volume, const geometry::Plane& plane, const Run
         return geometry::height(plane, topology::centroid_of(model, topology::all_faces(model))) > 0;
     });
     if (pieces.size() != 1) refuse_parts(pieces.size());
+    note_above(volume, pieces.front(), context);
     pieces.front().name = volume.name;
     return std::move(pieces.front());
 }
@@ -268,10 +309,12 @@ Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext
         opening.request.find_walls = false;
     }
     if (!asked.along && !asked.full_turn) {
-        if (asked.fill_to)
-            if (auto level = filled_to_level(whole, opening.request, context)) opening = std::move(*level);
-        // Among faces without roles, faces at the step may be missing instead.
-        if (opening.request.roles) opening = without_overhangs(std::move(opening), context);
+        // Without roles, these are found for the part below the level; faces at a step may be missing instead
+        // of sticking out. With roles, the volume is cut at the level, and keeps its flat face there.
+        if (opening.request.roles)
+            opening = without_overhangs(std::move(opening), context);
+        else if (auto level = asked.fill_to ? filled_to_level(whole, asked, context) : std::nullopt)
+            opening = std::move(*level);
     }
     const auto& [model, request] = opening;
     std::vector<FaceId> faces;
