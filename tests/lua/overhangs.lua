@@ -115,7 +115,7 @@ do
     check.near(mesh:quality().volume, exact, 1e-6 * exact)
     local most = -math.huge
     for i = 1, mesh.nodes do most = math.max(most, (select(3, mesh:node(i)))) end
-    check.near(most, level, 1e-6)
+    check.near(most, level, 1e-12)
   end
   check.fails(function()
     model:open_volume { faces = inner, fill_to = { { 0, 0, 30 }, { 0, 0, 1 } } }

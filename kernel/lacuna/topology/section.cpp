@@ -311,6 +311,7 @@ private:
                         if (std::abs(h) <= 1e-3 * tolerance_) break;
                         ((h < 0) == rises ? low : high) = middle;
                     }
+                    place -= geometry::height(plane_, place) * plane_.normal;
                     edge.params.insert(edge.params.begin() + after, middle);
                 } else if (!edge.params.empty()) {
                     edge.params.insert(edge.params.begin() + after,
