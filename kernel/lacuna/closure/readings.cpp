@@ -176,10 +176,11 @@ bool closes_hole(const Model& model, const Closure& closure)
     });
 }
 
-/// If some readings are ambiguous, or a single one has a void face whose rim does not determine its shape,
-/// replace them by that of `read_filled()`, provided that the latter assumes no more than that missing faces
-/// are flat or straight. If the readings differ in volume, or in whether holes go through, it must close no
-/// hole and assume nothing but round walls between rims.
+/// Replace the readings by that of `read_filled()` if this one is sure:
+/// - If the readings differ in volume, or in whether holes go through, it must close no hole, and assume
+///   nothing but round walls between rims.
+/// - If a single reading is a guess, or has a void face whose rim does not determine its shape, it may also
+///   assume that missing faces are flat and missing walls straight.
 void prefer_told(const Model& model, const std::vector<FaceId>& faces, std::vector<Reading>& readings,
                  const RunContext& context)
 {

@@ -156,12 +156,20 @@ std::optional<Overhang> find_overhang(const Model& model, const std::vector<Face
 {
     const std::vector<std::vector<FaceId>> parts = connected_parts(model, faces);
     if (parts.size() < 2) return std::nullopt;
+    std::vector<Eigen::AlignedBox3d> boxes(parts.size());
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const FaceId face : parts[p])
+            for (const Index corner : corners_of(model[face])) boxes[p].extend(model.at(corner));
     for (const std::vector<FaceId>& around : parts)
         for (const Rim& rim : rims(model, around)) {
             const std::vector<Vec3> loop = loop_places(model, rim.uses);
             const auto plane = plane_of_end(model, around, loop);
             if (!plane) continue;
-            for (const std::vector<FaceId>& part : parts) {
+            for (std::size_t p = 0; p < parts.size(); ++p) {
+                const std::vector<FaceId>& part = parts[p];
+                const double middle = geometry::height(*plane, boxes[p].center());
+                const double reach = plane->normal.cwiseAbs().dot(boxes[p].sizes()) / 2;
+                if (middle + reach <= model.tolerance || middle - reach >= -model.tolerance) continue;
                 const Range range = heights(model, part, *plane);
                 if (range.low < -model.tolerance && range.high > model.tolerance && &part != &around &&
                     !crosses_quads(model, part, *plane) && crosses_inside(model, part, *plane, loop))

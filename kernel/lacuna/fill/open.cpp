@@ -142,20 +142,26 @@ std::shared_ptr<const closure::SweptSource> open_along(const Model& model, const
     return swept;
 }
 
+/// Call `change(faces)` for each list of faces that a request names.
+template <class Change>
+void each_list(RoleRequest& request, const Change& change)
+{
+    if (request.faces) change(*request.faces);
+    if (request.roles)
+        for (std::vector<FaceId>* role :
+             {&request.roles->source, &request.roles->target, &request.roles->walls})
+            change(*role);
+}
+
 /// The same request for a model whose touching parts were joined, with the faces renamed.
 RoleRequest joined_request(RoleRequest request, const JoinedParts& joined)
 {
-    const auto rename = [&](std::vector<FaceId>& faces) {
+    each_list(request, [&](std::vector<FaceId>& faces) {
         std::vector<FaceId> now;
         for (const FaceId face : faces)
             now.insert(now.end(), joined.faces_of[face.index()].begin(), joined.faces_of[face.index()].end());
         faces = std::move(now);
-    };
-    if (request.faces) rename(*request.faces);
-    if (request.roles)
-        for (std::vector<FaceId>* role :
-             {&request.roles->source, &request.roles->target, &request.roles->walls})
-            rename(*role);
+    });
     return request;
 }
 
@@ -291,7 +297,7 @@ Opening without_overhangs(Opening opening, const RunContext& context)
         auto shorter = opening_of(opening.request, model, std::move(*trimmed));
         if (!shorter) return opening;
         log_line(context,
-                 formatted("note: cut off in the plane of the rim of {}, out of which they stick: {}",
+                 formatted("note: cut off in the plane of the rim of {}, because they stick out of it: {}",
                            topology::entity_of(model, found->beside), topology::entities_of(model, lost)));
         opening = std::move(*shorter);
     }
@@ -370,19 +376,14 @@ Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext
 /// Keep the first of equal entries of each list of faces.
 RoleRequest without_repeats(const Model& model, RoleRequest request, const RunContext& context)
 {
-    const auto clean = [&](std::vector<FaceId>& faces) {
+    each_list(request, [&](std::vector<FaceId>& faces) {
         std::set<FaceId> seen, twice;
         std::erase_if(faces,
                       [&](FaceId face) { return !seen.insert(face).second && (twice.insert(face), true); });
         if (!twice.empty())
             log_line(context, formatted("note: listed more than once, counted once: {}",
                                         topology::entities_of(model, twice)));
-    };
-    if (request.faces) clean(*request.faces);
-    if (request.roles)
-        for (std::vector<FaceId>* list :
-             {&request.roles->source, &request.roles->target, &request.roles->walls})
-            clean(*list);
+    });
     return request;
 }
 
@@ -396,49 +397,7 @@ void note_body_filled(const Model& model, const RunContext& context)
         words += formatted("; for its {} of volume {:.4g} give faces={{{}}}", cavity.kind, cavity.volume,
                            full_list(cavity.faces, tag));
     }
-    if (!words.empty())
-        log_line(context, "note: no faces are named, so that the body itself is filled" + words);
-}
-
-/// Leave out what faces in contact cut off from the volume: parts that consist of pieces of split faces only,
-/// whose other pieces remain, such as the end of a tube behind the plate that it passes through.
-void leave_out_cut_off(const Model& before, const JoinedParts& joined, RoleRequest& request,
-                       const RunContext& context)
-{
-    if (request.find_walls || (!request.roles && !request.faces)) return;
-    std::vector<FaceId> parent(joined.model.faces.size());
-    for (const FaceId face : topology::all_faces(before))
-        for (const FaceId piece : joined.faces_of[face.index()]) parent[piece.index()] = face;
-    const auto is_split = [&](FaceId piece) {
-        return joined.faces_of[parent[piece.index()].index()].size() > 1;
-    };
-    std::set<FaceId> remaining; // split faces with a piece in a part that has other faces, too
-    std::vector<std::vector<FaceId>> apart;
-    for (const auto& part : topology::connected_parts(joined.model, named_faces(joined.model, request))) {
-        if (std::ranges::all_of(part, is_split))
-            apart.push_back(part);
-        else
-            for (const FaceId piece : part) remaining.insert(parent[piece.index()]);
-    }
-    std::set<FaceId> gone, of;
-    for (const std::vector<FaceId>& part : apart) {
-        if (!std::ranges::all_of(part,
-                                 [&](FaceId piece) { return remaining.contains(parent[piece.index()]); }))
-            continue;
-        gone.insert(part.begin(), part.end());
-        for (const FaceId piece : part) of.insert(parent[piece.index()]);
-    }
-    if (gone.empty()) return;
-    const auto clean = [&](std::vector<FaceId>& faces) {
-        std::erase_if(faces, [&](FaceId face) { return gone.contains(face); });
-    };
-    if (request.faces) clean(*request.faces);
-    if (request.roles)
-        for (std::vector<FaceId>* list :
-             {&request.roles->source, &request.roles->target, &request.roles->walls})
-            clean(*list);
-    log_line(context, formatted("note: left out behind the faces that they touch: parts of {}",
-                                topology::entities_of(before, of)));
+    if (!words.empty()) log_line(context, "note: no faces are named, so the body itself is filled" + words);
 }
 
 Volume open_named(const Model& model, const RoleRequest& request, const RunContext& context)
@@ -455,9 +414,7 @@ Volume open_named(const Model& model, const RoleRequest& request, const RunConte
     const auto joined = join_touching_parts(model, named, request.find_walls, context);
     if (!joined) return open_apart(model, request, context);
     log_line(context, joined->note);
-    RoleRequest own = joined_request(request, *joined);
-    leave_out_cut_off(model, *joined, own, context);
-    return open_apart(joined->model, own, context);
+    return open_apart(joined->model, joined_request(request, *joined), context);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>
@@ -47,12 +48,10 @@ std::optional<Int> parse_integer(std::string_view text)
 template <class Value>
 Value from_bytes(const char* bytes, bool big)
 {
-    char turned[sizeof(Value)];
-    for (std::size_t i = 0; i < sizeof turned; ++i)
-        turned[i] = bytes[big == (std::endian::native == std::endian::big) ? i : sizeof turned - 1 - i];
-    Value value;
-    std::memcpy(&value, turned, sizeof value);
-    return value;
+    std::array<char, sizeof(Value)> own;
+    std::memcpy(own.data(), bytes, own.size());
+    if (big != (std::endian::native == std::endian::big)) std::ranges::reverse(own);
+    return std::bit_cast<Value>(own);
 }
 
 /// Whether a character is a blank, tab or carriage return.
