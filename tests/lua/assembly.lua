@@ -275,6 +275,39 @@ check.equal(#hidden.report.near_misses, 1)
 check.near(hidden.report.near_misses[1].width, 0.003, 1e-4)
 check.that(hidden.report.near_misses[1].message:find "0.0048", "the sag is told")
 
+-- Parts that overlap are refused at every depth beyond the tolerance. With a tolerance that joins them, the
+-- rib is shortened and the plate stays flat.
+local function block(name, from, to, turn, tolerance)
+  local points = {}
+  for _, z in ipairs { from[3], to[3] } do
+    for _, p in ipairs { { from[1], from[2] }, { to[1], from[2] }, { to[1], to[2] }, { from[1], to[2] } } do
+      points[#points + 1] = { p[1] * math.cos(turn) - p[2] * math.sin(turn),
+                              p[1] * math.sin(turn) + p[2] * math.cos(turn), z }
+    end
+  end
+  local model = lacuna.model { tolerance = tolerance }
+  local sides = { { 1, 4, 3, 2 }, { 5, 6, 7, 8 }, { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 4, 8, 7 }, { 4, 1, 5, 8 } }
+  for i, side in ipairs(sides) do
+    local a, b, c, d = table.unpack(side)
+    model:add_face { name = name .. i, points = points, cells = { { a, b, c }, { a, c, d } } }
+  end
+  return model:open_volume { name = name }
+end
+for _, turn in ipairs { 0, 0.3 } do
+  for _, sink in ipairs { 0.02, 0.1, 0.3 } do
+    local function both(tolerance)
+      return block("plate", { 0, 0, 0 }, { 120, 70, 5 }, turn, tolerance),
+             block("rib", { 10, 33, 5 - sink }, { 110, 37, 27 }, turn, tolerance)
+    end
+    check.fails(function() lacuna.assembly { both() }:sweep { size = 3 } end, "assembly.overlap")
+    local plate, rib = both(1.6 * sink)
+    for _, members in ipairs { { plate, rib }, turn == 0 and { rib, plate } or nil } do
+      local joined = lacuna.assembly(members):sweep { size = 3 }
+      check.near(joined:quality().volume, 120 * 70 * 5 + 100 * 4 * 22, 1e-6)
+    end
+  end
+end
+
 -- Sides that intervals ask for on an edge that volumes share are those of all of them.
 local function cube(z) return slab(z, nil, "cube" .. z) end
 local low, high = cube(0), cube(1)

@@ -365,3 +365,17 @@ check.family(params, function(number)
   local at, quality = meshes(number)
   return ("%s: %.2f %.4f"):format(at, quality.min_scaled_jacobian, quality.volume)
 end)
+
+-- A boss that overhangs the edge of its plate: the plate's edge crosses the exact circle, not its chords.
+for _, x in ipairs { 55, 58 } do
+  local plate, boss = params.scratch .. "/plate.geo", params.scratch .. "/boss.geo"
+  check.write(plate, 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 60, 40, 6};\n')
+  check.write(boss, ('SetFactory("OpenCASCADE");\nCylinder(9) = {%g, 20, 6, 0, 0, 20, 8};\n'):format(x))
+  local model = lacuna.load { plate, boss }
+  local mesh = lacuna.assembly {
+    model:open_volume { faces = { 1, 2, 3, 4, 5, 6 }, name = "plate" },
+    model:open_volume { faces = { 7, 8, 9 }, name = "boss" },
+  }:sweep { size = 3 }
+  check.near(mesh:quality().volume, 60 * 40 * 6 + math.pi * 64 * 20, 60)
+  check.that(mesh.report.near_misses[1] == nil, "shares its part of the plate")
+end

@@ -208,9 +208,11 @@ private:
             add_vertices_beside(imprinted_, members_, result_.shared, context_);
         }
         result_.near_misses = std::move(found.near);
-        for (const NearMiss& miss : result_.near_misses) {
+        for (const NearMiss& miss : result_.near_misses)
             notes_.push_back(miss.message.about("near miss").text());
-            log_line(context_, notes_.back());
+        if (const std::size_t count = result_.near_misses.size()) {
+            const std::string more = count > 1 ? formatted("; {} more are in the report", count - 1) : "";
+            log_line(context_, formatted("note: {}{}", notes_[notes_.size() - count], more));
         }
     }
 

@@ -47,6 +47,54 @@ std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const 
     return (p - q).norm() <= within ? std::optional<Vec3>((p + q) / 2) : std::nullopt;
 }
 
+/// A chord of an edge.
+struct Chord {
+    const Model* model;
+    EdgeId edge;
+    const std::vector<Vec3>* line; ///< the edge's points
+    std::size_t start;             ///< the index of the chord's first point
+
+    [[nodiscard]] Vec3 direction() const { return (*line)[start + 1] - (*line)[start]; }
+    /// Whether the chord stands for an exact curve.
+    [[nodiscard]] bool is_curved() const
+    {
+        const Edge& own = (*model)[edge];
+        return own.curve && !own.params.empty() && line->size() == own.points.size();
+    }
+    /// The point beside a fraction of the chord, on the exact curve if there is one.
+    [[nodiscard]] Vec3 at(double fraction) const
+    {
+        if (is_curved()) return curve_beside(*model, (*model)[edge], start, fraction).place;
+        return (*line)[start] + fraction * direction();
+    }
+    [[nodiscard]] double fraction_of(const Vec3& place) const
+    {
+        return direction().dot(place - (*line)[start]) / direction().squaredNorm();
+    }
+};
+
+/// Where the curves of two chords cross. Chords around the crossing that get shorter and shorter replace the
+/// given ones, until their crossing moves by less than the tolerance. Empty as for the chords themselves.
+std::optional<Vec3> crossing(const Chord& one, const Chord& other, double within)
+{
+    std::optional<Vec3> at = crossing(one.at(0), one.at(1), other.at(0), other.at(1), within);
+    double moved = at && (one.is_curved() || other.is_curved()) ? kInfinity : 0;
+    for (double half = 1.0 / 8; moved > one.model->tolerance / 2 && half > kSamePlace; half /= 4) {
+        const auto ends = [&](const Chord& chord) {
+            const double middle = chord.fraction_of(*at);
+            return std::pair(chord.at(std::clamp(middle - half, 0.0, 1.0)),
+                             chord.at(std::clamp(middle + half, 0.0, 1.0)));
+        };
+        const auto [a, b] = ends(one);
+        const auto [c, d] = ends(other);
+        const std::optional<Vec3> closer = crossing(a, b, c, d, within);
+        if (!closer) break;
+        moved = (*closer - *at).norm();
+        at = closer;
+    }
+    return at;
+}
+
 /// The chords of a line that do not run along another line. @return  the index of the first point of each
 /// chord
 std::vector<std::size_t> chords_off(const std::vector<Vec3>& line, const std::vector<Vec3>& other,
@@ -311,7 +359,8 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
             const std::vector<std::size_t> of_q = chords_off(q, p, within);
             for (const std::size_t i : chords_off(p, q, within))
                 for (const std::size_t j : of_q)
-                    if (const auto at = crossing(p[i], p[i + 1], q[j], q[j + 1], within))
+                    if (const auto at = crossing(Chord{&a.model(), e, &p, i}, Chord{&b.model(), f, &q, j},
+                                                 within))
                         stops.push_back(*at);
         }
     }

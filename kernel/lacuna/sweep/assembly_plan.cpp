@@ -92,9 +92,14 @@ public:
         for (const auto& [m, sides] : counts_.side_lines())
             for (const EdgeUse& side : sides)
                 side_lines_[edges_.set_of(edges_.number(m, side.edge))].emplace_back(m, side);
-        for (std::size_t e = 0; e < edges_.size(); ++e)
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
             if (edges_.model(edges_[e].member)[edges_[e].edge].curve != nullptr)
                 curved_one_.emplace(edges_.set_of(e), e);
+            if (!is_imprinted(e) || edges_.kept_one(edges_.set_of(e)) != nullptr) continue;
+            imprinted_one_.emplace(edges_.set_of(e), e);
+            for (const Vec3& end : {edges_[e].from, edges_[e].to})
+                corner_at(end, edges_.model(edges_[e].member).tolerance);
+        }
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             // The triangles of a face without quads only define its shape. Given nodes on its rim are dropped
             // if the planned number of sides differs.
@@ -254,16 +259,39 @@ private:
         }
     }
 
+    /// Whether an edge was imprinted into a face, which continues on both sides.
+    [[nodiscard]] bool is_imprinted(std::size_t e) const
+    {
+        const Model& model = edges_.model(edges_[e].member);
+        return model[edges_[e].edge].origin == Origin::made_void &&
+               std::ranges::all_of(model.uses_of_edge(edges_[e].edge), [&](const FaceUse& use) {
+                   return model[use.face].origin == Origin::given;
+               });
+    }
+
+    /// Maximum distance of the ends and the middle of an edge from another edge that is the same.
+    [[nodiscard]] double off(std::size_t e, std::size_t other) const
+    {
+        const std::vector<Vec3> line = surface::edge_line(edges_.model(edges_[other].member),
+                                                          edges_[other].edge);
+        const auto distance = [&](const Vec3& p) { return closest_on(line, p).distance; };
+        return std::max({distance(edges_[e].from), distance(edges_[e].middle), distance(edges_[e].to)});
+    }
+
     /// The edge, among those that are the same in several members, that defines the nodes: one with given
-    /// nodes, else one with an exact curve, else the first.
+    /// nodes, else one with an exact curve, else the first. If an edge was imprinted into a face, the curve
+    /// is used only if it lies on that face: otherwise its nodes would dent the face.
     [[nodiscard]] std::size_t exact_one(std::size_t e) const
     {
         const std::size_t root = edges_.set_of(e);
         if (const std::size_t* kept = edges_.kept_one(root);
             kept != nullptr && edges_.given_sides(*kept) == counts_.sides_of(e))
             return *kept;
-        const auto curved = curved_one_.find(root);
-        return curved == curved_one_.end() ? root : curved->second;
+        const auto curved = curved_one_.find(root), imprinted = imprinted_one_.find(root);
+        if (curved == curved_one_.end()) return imprinted == imprinted_one_.end() ? root : imprinted->second;
+        if (imprinted == imprinted_one_.end()) return curved->second;
+        const double sag = edges_[curved->second].sag + edges_[imprinted->second].sag;
+        return off(imprinted->second, curved->second) <= sag ? curved->second : imprinted->second;
     }
 
     /// Put nodes in the direction of a member's edge. On a closed edge they start at the node nearest to the
@@ -378,7 +406,9 @@ private:
     /// For each set of same edges: members of which it is a side line of one edge.
     std::map<std::size_t, std::vector<std::pair<std::size_t, EdgeUse>>> side_lines_;
     std::map<std::size_t, std::size_t> curved_one_; ///< for each set of same edges: the first with a curve
-    PointsByPlace corners_{cell_width()};           ///< stored positions of vertices; see `corner_at()`
+    std::map<std::size_t, std::size_t>
+        imprinted_one_;                   ///< the first that was imprinted, if no nodes are given
+    PointsByPlace corners_{cell_width()}; ///< stored positions of vertices; see `corner_at()`
 };
 
 } // namespace

@@ -34,9 +34,6 @@ constexpr double kRimSag = 1.5;
 /// If two faces touch along a rim and curve away from each other, less than this share of either face is
 /// closer to the other face than the error of the facets.
 constexpr double kAlongRim = 0.5;
-/// A point counts as lying on a volume's skin if it is within this share of the volume's diagonal. The facets
-/// of curved faces may differ by that much from those of the neighbour.
-constexpr double kInside = 5e-3;
 /// A face prepared for comparison.
 struct Side {
     const OpenVolume* volume = nullptr;
@@ -246,16 +243,15 @@ geometry::FacetTree closed_skin(const OpenVolume& volume)
     return {volume.model.points, facets};
 }
 
-/// Refuse a volume if part of its skin is inside another volume, deeper than the errors of both volumes'
-/// facets explain. An open volume has no inside and is not checked. @param skin_of_b  see `closed_skin()`;
-/// computed when first needed
+/// Refuse a volume if part of its skin is inside another volume, deeper than `depth` and than the errors of
+/// both volumes' facets explain. An open volume has no inside and is not checked.
+/// @param skin_of_b  see `closed_skin()`; computed when first needed
 void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
                  const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
                  std::span<const Side> sides_of_b, const Eigen::AlignedBox3d& box_of_b,
-                 std::optional<geometry::FacetTree>& skin_of_b)
+                 std::optional<geometry::FacetTree>& skin_of_b, double depth)
 {
-    const double inside_by = kInside * b.volume->model.diagonal;
-    const Eigen::AlignedBox3d inner(box_of_b.min().array() + inside_by, box_of_b.max().array() - inside_by);
+    const Eigen::AlignedBox3d inner(box_of_b.min().array() + depth, box_of_b.max().array() - depth);
     if (inner.isEmpty() || !inner.intersects(box_of_a)) return;
     if (!skin_of_b) skin_of_b = closed_skin(*b.volume);
     const geometry::FacetTree& tree = *skin_of_b;
@@ -270,9 +266,9 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
     for (std::size_t t = 0; t < own.size(); t += step) {
         const Vec3 p = (model.at(own[t][0]) + model.at(own[t][1]) + model.at(own[t][2])) / 3;
         if (!tree.bounds().contains(p)) continue;
-        double by = inside_by + sag[t];
+        double by = depth + sag[t];
         for (const Side& side : sides_of_b) {
-            const double reach = inside_by + sag[t] + side.sag;
+            const double reach = depth + sag[t] + side.sag;
             if (side.box.squaredExteriorDistance(p) <= reach * reach) by = std::max(by, reach);
         }
         if (tree.closest(p, by * by).triangle >= 0) continue;
@@ -316,10 +312,11 @@ struct MemberSides {
         return Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
             .intersects(box[b]);
     }
-    void check_apart(std::span<const AssemblyMember> members, std::size_t a, std::size_t b)
+    void check_apart(std::span<const AssemblyMember> members, const NearPair& pair)
     {
-        sweep::check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b], skin[b]);
-        sweep::check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a], skin[a]);
+        const std::size_t a = pair.a, b = pair.b;
+        sweep::check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b], skin[b], pair.window);
+        sweep::check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a], skin[a], pair.window);
     }
 };
 
@@ -361,7 +358,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
             NearPair pair{a, b, pair_tolerance(members[a], members[b]), 0, {}};
             pair.window = near_window(members[a], members[b]);
             if (!all.are_near(a, b, kAround * pair.window)) continue;
-            if (may_overlap == MayOverlap::no) all.check_apart(members, a, b);
+            if (may_overlap == MayOverlap::no) all.check_apart(members, pair);
             pair.overlaps = face_overlaps(*members[a].volume, sag[a], *members[b].volume, sag[b],
                                           pair.tolerance, pair.window, context);
             for (const Side& one : sides[a]) {
@@ -416,7 +413,7 @@ std::vector<FaceContact> faces_in_contact(std::span<const AssemblyMember> member
             NearPair pair{a, b, pair_tolerance(members[a], members[b]), 0, {}};
             pair.window = std::max(pair.tolerance, gap(a, b));
             if (!all.are_near(a, b, pair.window)) continue;
-            if (members[a].glue != members[b].glue) all.check_apart(members, a, b);
+            if (members[a].glue != members[b].glue) all.check_apart(members, pair);
             pair.overlaps = face_overlaps(*members[a].volume, sag[a], *members[b].volume, sag[b],
                                           pair.tolerance, pair.window, context);
             for (const auto& [faces, overlap] : pair.overlaps) {
