@@ -77,7 +77,24 @@ std::vector<Vec3> source_samples(const LoopShape& source, bool by_length)
     return by_length ? even_samples(source, 0, false) : edge_samples(source, 0, false);
 }
 
-/// Every alignment, best first.
+/// The start on a target paired by length that the first hard pair of the loops gives. Empty if there is no
+/// hard pair between them.
+std::optional<std::size_t> hard_start(const Problem& problem, const LoopShape& source,
+                                      const LoopShape& target, std::size_t places, bool backward)
+{
+    for (std::size_t i = 0; i < source.vertices.size(); ++i) {
+        const auto pair = problem.hard.find(source.vertices[i]);
+        if (pair == problem.hard.end()) continue;
+        const auto j = index(std::ranges::find(target.vertices, pair->second) - target.vertices.begin());
+        if (j == target.vertices.size()) continue;
+        const double start = target.vertex_arc[j] / target.length -
+                             (backward ? -1 : 1) * source.vertex_arc[i] / source.length;
+        return index(std::lround(static_cast<double>(places) * (start - std::floor(start)))) % places;
+    }
+    return std::nullopt;
+}
+
+/// Every alignment, best first. Of loops paired by length, a hard pair leaves one start.
 /// @param hard  pairs to keep; null: pair by length.
 /// @param only_backward  the direction; empty: both directions.
 std::vector<Alignment> rated(const Problem& problem, const Hard* hard, const LoopShape& source,
@@ -90,8 +107,10 @@ std::vector<Alignment> rated(const Problem& problem, const Hard* hard, const Loo
     std::vector<Alignment> result;
     for (const bool backward : {true, false}) {
         if (only_backward && *only_backward != backward) continue;
+        const auto start = by_length ? hard_start(problem, source, target, places, backward) : std::nullopt;
         for (std::size_t shift = 0; shift < places; ++shift) {
             check_cancelled(problem.context);
+            if (start && shift != *start) continue;
             if (!by_length && !allowed(*hard, source, target, shift, backward)) continue;
             const double offset = by_length ? static_cast<double>(shift) / static_cast<double>(places) : 0;
             Alignment& alignment = result.emplace_back(Alignment{shift, offset, backward, 0, {}});

@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/patches.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/incidence.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <unordered_map>
 
 namespace lacuna::topology {
@@ -22,28 +22,26 @@ namespace {
 /// The facets next to the segments of edges: one per face at a segment.
 class FacetsAtEdges {
 public:
-    FacetsAtEdges(const Model& model, const RunContext& context)
-        : model_(model), start_(model.points.size() + 1)
+    FacetsAtEdges(const Model& model, const RunContext& context) : model_(model)
     {
-        const auto each_segment = [&](const auto& visit) {
-            for (const Edge& edge : model.edges)
-                for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
-                    visit(std::minmax(edge.points[i], edge.points[i + 1]));
-        };
-        each_segment([&](const auto& segment) { ++start_[index(segment.first) + 1]; });
-        std::partial_sum(start_.begin(), start_.end(), start_.begin());
-        segments_.resize(start_.back());
-        std::vector<std::size_t> next = start_;
-        each_segment(
-            [&](const auto& segment) { segments_[next[index(segment.first)]++].high = segment.second; });
+        for (const Edge& edge : model.edges)
+            for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
+                ends_.emplace_back(std::minmax(edge.points[i], edge.points[i + 1]));
+        last_.assign(ends_.size(), kNoIndex);
+        at_low_ = incidence(model.points.size(), [&](const auto& visit) {
+            for (std::size_t s = 0; s < ends_.size(); ++s)
+                visit(index(ends_[s].first), static_cast<Index>(s));
+        });
         for (std::size_t f = 0; f < model.faces.size(); ++f) {
             check_cancelled(context);
             for (const Triangle& t : model.faces[f].triangles) {
                 for (std::size_t i = 0; i < 3; ++i) {
                     const std::size_t found = segment(t[i], t[(i + 1) % 3]);
-                    if (found == segments_.size()) continue;
-                    std::vector<Beside>& facets = segments_[found].facets; // only the first of each face
-                    if (facets.empty() || facets.back().face != FaceId(f)) facets.push_back({FaceId(f), t});
+                    if (found == ends_.size()) continue;
+                    std::size_t& last = last_[found];
+                    if (last != kNoIndex && facets_[last].face == FaceId(f)) continue;
+                    facets_.push_back({FaceId(f), t, last}); // only the first of each face
+                    last = facets_.size() - 1;
                 }
             }
         }
@@ -51,24 +49,22 @@ public:
 
     /// Mean angle between two faces along a shared edge, negative if concave [degrees]; 0 if they meet
     /// smoothly.
+    /// @pre two different faces use the edge
     [[nodiscard]] double fold_across(EdgeId edge) const
     {
         const std::vector<Index>& points = model_[edge].points;
+        const std::span<const FaceUse> uses = model_.uses_of_edge(edge);
         double sum = 0, above = 0;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            const std::vector<Beside>& facets = segments_[segment(points[i], points[i + 1])].facets;
-            std::vector<Vec3> normals, middles;
-            for (const FaceUse& use : model_.uses_of_edge(edge)) {
-                const auto found = std::find_if(facets.begin(), facets.end(),
-                                                [&](const Beside& b) { return b.face == use.face; });
-                if (found == facets.end()) continue;
-                const Triangle& t = found->facet;
-                normals.push_back(facet_area_vector(model_, t).stableNormalized());
-                middles.push_back((model_.at(t[0]) + model_.at(t[1]) + model_.at(t[2])) / 3);
-            }
-            if (normals.size() != 2) continue;
-            sum += std::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1]));
-            above += normals[0].dot(middles[1] - model_.at(points[i]));
+            const std::size_t s = segment(points[i], points[i + 1]);
+            const std::size_t one = facet(s, uses[0].face), other = facet(s, uses[1].face);
+            if (one == kNoIndex || other == kNoIndex) continue;
+            const Triangle& t = facets_[other].facet;
+            const Vec3 normal = facet_area_vector(model_, facets_[one].facet).stableNormalized();
+            const Vec3 next = facet_area_vector(model_, t).stableNormalized();
+            const Vec3 middle = (model_.at(t[0]) + model_.at(t[1]) + model_.at(t[2])) / 3;
+            sum += std::atan2(normal.cross(next).norm(), normal.dot(next));
+            above += normal.dot(middle - model_.at(points[i]));
         }
         const double angle = sum / static_cast<double>(points.size() - 1) * 180 / std::numbers::pi;
         return above > 0 ? -angle : angle;
@@ -78,25 +74,31 @@ private:
     struct Beside {
         FaceId face;
         Triangle facet;
+        std::size_t before; ///< index of the segment's facet before this one
     };
 
-    struct Segment {
-        Index high; ///< the higher point number of its ends
-        std::vector<Beside> facets;
-    };
+    /// Index of the facet of a face at a segment.
+    [[nodiscard]] std::size_t facet(std::size_t segment, FaceId face) const
+    {
+        std::size_t f = last_[segment];
+        while (f != kNoIndex && facets_[f].face != face) f = facets_[f].before;
+        return f;
+    }
 
     /// The first segment between two points; the number of segments if there is none.
     [[nodiscard]] std::size_t segment(Index a, Index b) const
     {
         const auto [low, high] = std::minmax(a, b);
-        for (std::size_t s = start_[index(low)]; s < start_[index(low) + 1]; ++s)
-            if (segments_[s].high == high) return s;
-        return segments_.size();
+        for (const Index s : at_low_.of(index(low)))
+            if (ends_[index(s)].second == high) return index(s);
+        return ends_.size();
     }
 
     const Model& model_;
-    std::vector<std::size_t> start_; ///< first segment of each point; a segment belongs to its lower point
-    std::vector<Segment> segments_;
+    std::vector<std::pair<Index, Index>> ends_; ///< of each segment, ascending
+    Incidence at_low_;                          ///< segments by their lower point
+    std::vector<std::size_t> last_;             ///< by segment: index of its last facet
+    std::vector<Beside> facets_;
 };
 
 template <class Id>
