@@ -286,7 +286,9 @@ local function block(name, from, to, turn, tolerance)
     end
   end
   local model = lacuna.model { tolerance = tolerance }
-  local sides = { { 1, 4, 3, 2 }, { 5, 6, 7, 8 }, { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 4, 8, 7 }, { 4, 1, 5, 8 } }
+  local sides = {
+    { 1, 4, 3, 2 }, { 5, 6, 7, 8 }, { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 4, 8, 7 }, { 4, 1, 5, 8 },
+  }
   for i, side in ipairs(sides) do
     local a, b, c, d = table.unpack(side)
     model:add_face { name = name .. i, points = points, cells = { { a, b, c }, { a, c, d } } }
