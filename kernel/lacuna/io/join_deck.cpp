@@ -250,12 +250,12 @@ private:
                 "{}: only {} of the mesh's {} quads match the deck, whose elements have {} quads "
                 "and {} triangles there",
                 entity_of(patch), found(matched), needed(quads), given, triangles);
-            throw InvalidInput(
-                triangles > 0
-                    ? why.remedy("only tetrahedra keep the triangles: sweep with quads = \"keep\" and "
-                                 "fallback = \"mixed\"")
-                    : why.remedy("load the deck with keep_mesh = true, and sweep with quads = \"auto\" or "
-                                 "\"keep\" (mesh:report lists the kept meshes)"));
+            if (triangles > 0)
+                throw InvalidInput(why.remedy("only tetrahedra keep the triangles: sweep with quads = \"keep\" "
+                                              "and fallback = \"mixed\""));
+            if (given == 0) throw InvalidInput(why.remedy("load the deck with keep_mesh = true"));
+            throw InvalidInput(why.remedy("sweep with quads = \"auto\" or \"keep\"; both ends keep their quads "
+                                          "only if these agree, so name ends whose quads do"));
         }
     }
 

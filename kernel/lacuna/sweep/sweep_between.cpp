@@ -276,6 +276,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     if (!given_target.why.empty()) {
         result.not_kept.push_back("target: its given quads are not kept: " + given_target.why);
         result.report.push_back(result.not_kept.back());
+        result.notes.push_back(result.not_kept.back());
     }
     Morphed morphed;
     if (keeps_target) {
