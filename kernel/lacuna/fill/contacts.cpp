@@ -2,6 +2,7 @@
 #include <lacuna/fill/detail/contacts.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/io/shared/units.h>
 
@@ -15,10 +16,6 @@ namespace lacuna::fill {
 namespace {
 
 using sweep::AssemblyMember;
-
-/// Two sides of a contact count as equal in area if their areas differ by less than this share. Equal curved
-/// faces with different facets have slightly different areas.
-constexpr double kAlike = 0.01;
 
 const std::string& region_of(const AssemblyMember& member)
 {
@@ -226,7 +223,8 @@ void add_contact(FilledParts& mesh, std::span<const AssemblyMember> members, con
         }
     const auto& [a, b] = sides;
     if (a.count == 0 || b.count == 0) return; // a volume was left out
-    const bool alike = std::abs(a.area - b.area) <= kAlike * std::max(a.area, b.area);
+    // Equal curved faces with different facets have slightly different areas.
+    const bool alike = std::abs(a.area - b.area) <= kAlikeSizes * std::max(a.area, b.area);
     const std::size_t slave = (alike ? a.count >= b.count : a.area < b.area) ? 0 : 1;
     Contact contact = found.contact;
     contact.pair.groups = {contact.pair.name + "_slave", contact.pair.name + "_master"};

@@ -5,18 +5,18 @@
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/nearest_word.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/contacts.h>
 #include <lacuna/fill/detail/edge_sets.h>
-#include <lacuna/fill/detail/kept_mesh.h>
+#include <lacuna/fill/detail/parts.h>
 #include <lacuna/fill/detail/tets.h>
 #include <lacuna/io/shared/units.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/default_size.h>
 #include <lacuna/surface/shared/walls.h>
 #include <lacuna/sweep/shared/imprinted.h>
+#include <lacuna/sweep/shared/turn_at_axis.h>
 #include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
@@ -24,133 +24,13 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 
 namespace lacuna::fill {
 
 namespace {
 
-/// A part of the assembly: a volume, or a piece of a volume, with its options; or a finished mesh.
-struct Part {
-    const Member* asked = nullptr; ///< null for a finished mesh
-    std::string asked_name;        ///< name of the member volume, for messages
-    Volume volume;
-    std::unique_ptr<KeptMesh> kept;
-    bool left_out = false;            ///< left out of the sweep; options may still name its faces
-    const Volume* piece_of = nullptr; ///< volume that this part is a piece of; null: it is not a piece
-    std::string whole{};              ///< name of that volume
-    std::size_t glue = 0;             ///< as in `sweep::AssemblyMember`
-};
-
-// --- options that name faces ------------------------------------------------------------------------------
-
-/// Call `give(name, faces)` for each option that names faces.
-template <class Options, class Do>
-void for_each_names(Options& options, const Do& give)
-{
-    for (auto& layer : options.boundary_layers) give("boundary_layers", layer.walls);
-    for (auto& interval : options.intervals)
-        if (interval.of == surface::Interval::Of::wall) give("intervals", interval.walls);
-}
-
-/// Drop the faces that a member does not have from its options: options for several volumes may name faces
-/// that only one of these volumes has.
-void keep_known_faces(sweep::AssemblyMember& member)
-{
-    for_each_names(member.options, [&](const char*, surface::FaceNames& names) {
-        std::erase_if(names.tags, [&](int tag) { return !surface::has_face(*member.volume, tag); });
-        std::erase_if(names.names,
-                      [&](const auto& name) { return !surface::has_face(*member.volume, name); });
-    });
-    const auto is_empty = [](const surface::FaceNames& names) {
-        return names.tags.empty() && names.names.empty();
-    };
-    std::erase_if(member.options.boundary_layers, [&](auto& layer) { return is_empty(layer.walls); });
-    std::erase_if(member.options.intervals, [&](auto& interval) {
-        return interval.of == surface::Interval::Of::wall && is_empty(interval.walls);
-    });
-}
-
-/// Drop the pairs of periodic faces if no member has any of their faces.
-void keep_known_pairs(std::vector<sweep::AssemblyMember>& members)
-{
-    const auto has_face = [&](const surface::FaceNames& names) {
-        return std::ranges::any_of(members, [&](const sweep::AssemblyMember& member) {
-            const auto known = [&](const auto& face) { return surface::has_face(*member.volume, face); };
-            return std::ranges::any_of(names.tags, known) || std::ranges::any_of(names.names, known);
-        });
-    };
-    for (sweep::AssemblyMember& member : members)
-        std::erase_if(member.options.periodic, [&](const surface::PeriodicPair& pair) {
-            return !has_face(pair.a) && !has_face(pair.b);
-        });
-}
-
-/// The most similar face name among the given volumes; empty if no face has a name.
-std::string nearest_face_name(const std::vector<Part>& all, const std::string& wanted, const Member* of)
-{
-    std::set<std::string> known;
-    for (const Part& one : all) {
-        if (one.asked == nullptr || (of != nullptr && one.asked != of)) continue;
-        for (const topology::Face& face : one.volume.volume.model.faces) {
-            if (!face.name.empty() && face.origin == topology::Origin::given) known.insert(face.name);
-            known.insert(face.groups.begin(), face.groups.end());
-        }
-    }
-    if (known.empty()) return {};
-    std::vector<const char*> keys;
-    keys.reserve(known.size());
-    for (const std::string& name : known) keys.push_back(name.c_str());
-    return keys[nearest_word(wanted.c_str(), keys)];
-}
-
-/// Refuse a named face that no volume has. An option of a single volume may name only faces of that volume.
-void check_known_faces(const std::vector<Part>& all)
-{
-    std::set<std::tuple<const Member*, std::string, std::string>> seen;
-    const auto check = [&](const Part& by, const std::string& option, bool own, const Argument& what,
-                           const auto& face) {
-        const Member* const of = own ? by.asked : nullptr;
-        if (!seen.emplace(of, option, formatted("{}", what)).second) return;
-        const bool known = std::ranges::any_of(all, [&](const Part& one) {
-            return one.asked != nullptr && (of == nullptr || one.asked == of) &&
-                   surface::has_face(one.volume.volume, face);
-        });
-        if (known) return;
-        Message message("surface.no_such_face", "sweep: option '{}'{} names {}, which {}", option,
-                        own ? " of " + by.asked_name : "", what,
-                        own ? by.asked_name + " does not have" : "no volume of the assembly has");
-        std::string nearest;
-        if constexpr (std::is_same_v<std::decay_t<decltype(face)>, std::string>)
-            nearest = nearest_face_name(all, face, of);
-        if (nearest.empty()) throw InvalidInput(std::move(message).remedy("volume:tree() lists faces"));
-        throw InvalidInput(std::move(message).remedy("the nearest is \"{}\"", nearest));
-    };
-    for (const Part& one : all) {
-        if (one.asked == nullptr) continue;
-        for_each_names(one.asked->options, [&](const std::string& option, const surface::FaceNames& names) {
-            const bool own = option == "intervals" ? one.asked->own_intervals
-                                                   : one.asked->own_boundary_layers;
-            for (const int tag : names.tags) check(one, option, own, NamedEntity{"face", tag}, tag);
-            for (const std::string& name : names.names) check(one, option, own, '"' + name + '"', name);
-        });
-        for (const surface::PeriodicPair& pair : one.asked->options.periodic)
-            for (const surface::FaceNames* names : {&pair.a, &pair.b}) {
-                for (const int tag : names->tags)
-                    check(one, "periodic", false, NamedEntity{"face", tag}, tag);
-                for (const std::string& name : names->names)
-                    check(one, "periodic", false, '"' + name + '"', name);
-            }
-    }
-}
-
 // --- full turns -------------------------------------------------------------------------------------------
-
-/// Least number of layers of a full turn: with fewer layers, one layer spans 120° or more, too much for a
-/// hexahedron.
-constexpr int kLeastPerTurn = 4;
 
 /// Give a piece of a full turn its share of the requested layers.
 void share_layers(const Volume& volume, sweep::LayerSpec& layers)
@@ -163,10 +43,10 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
                 .remedy("give only their number, or sweep the pieces that volume:cut() returns, each with "
                         "its 'heights' or 'bias'"));
     if (layers.count == 0) return;
-    if (layers.count < kLeastPerTurn)
+    if (layers.count < sweep::kLeastPerTurn)
         throw InvalidInput("sweep.full_turn_layers",
                            "a full turn needs at least {} layers, but {} are requested",
-                           needed(kLeastPerTurn), found(layers.count));
+                           needed(sweep::kLeastPerTurn), found(layers.count));
     const auto until = [&](double turn) { return static_cast<int>(std::lround(turn * layers.count)); };
     layers.count = std::max(1, until(volume.turn_to) - until(volume.turn_from));
 }

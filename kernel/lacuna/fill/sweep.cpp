@@ -133,11 +133,10 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
     if (!(normal.norm() > 0))
         throw InvalidInput(Message("closure.along_direction", "the source has no mean normal")
                                .remedy("use a source in a plane through its axis"));
-    constexpr double kThickness = 0.1; // share of the diagonal; any value serves, because the plate has one
-                                       // layer
+    // Any thickness serves, because the plate has one layer.
     closure::SweptSource plate{along.source, nullptr, false, along.sets};
     plate.motion = std::make_shared<const geometry::Motion>(
-        geometry::translation(kThickness * source.diagonal * normal.normalized()));
+        geometry::translation(source.diagonal * normal.normalized()));
     sweep::SweepOptions flat = options;
     flat.layers = {};
     flat.layers.count = 1;

@@ -214,10 +214,8 @@ private:
         Vec2 way = normal;
         if (turn == RowTurn::outer && beyond >= 0) {
             const Vec2 line = (at - partial_.at(front.nodes[(place + (last ? 1 : n - 1)) % n])).normalized();
-            // Minimum sine of the angle between this line and the run. If the sine is smaller, the new side
-            // is perpendicular to the run, because quads in a sharper corner would be poor. Not measured.
-            constexpr double kUpright = 0.5;
-            if (line.dot(normal) >= kUpright) way = line;
+            // Otherwise the new side is perpendicular to the run, because quads in a sharper corner are poor.
+            if (line.dot(normal) >= kPoorQuad) way = line;
         }
         for (std::size_t r = 0; r < heights.size(); ++r) {
             const double height = heights[r] * scale;

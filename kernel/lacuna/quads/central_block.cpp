@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/central_block.h>
 
 #include <algorithm>
@@ -10,11 +11,10 @@
 namespace lacuna::quads {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// The sides of the block bulge outward: angle between a straight side and the first or last edge of the
 /// bulging side. The block's corners are then 132°. Each of the two quads outside a corner has 114° there,
 /// close to the 120° of three equal quads. A larger angle flattens the block's own corners.
-constexpr double kBulge = 21 * kPi / 180;
+constexpr double kBulge = 21 * kDegree;
 /// Distances from the centre to the block's corners and to the middles of its sides, as shares of the
 /// distance to the boundary. With a share of 0.5, quads outside the block are about as large as quads inside.
 constexpr double kCornerReach = 0.5, kSideReach = 0.5;
@@ -26,7 +26,7 @@ double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
     double least = kInfinity;
     for (const Vec2& p : region.points) {
         const Vec2 d = p - centre;
-        if (std::abs(std::remainder(std::atan2(d.y(), d.x()) - angle, kPi / 2)) < kPi / 8)
+        if (std::abs(std::remainder(std::atan2(d.y(), d.x()) - angle, kRightAngle)) < kRightAngle / 4)
             least = std::min(least, d.norm());
     }
     return least;
@@ -41,7 +41,7 @@ std::optional<double> eighths(const std::vector<Symmetry>& symmetries)
         int found = 0;
         for (const Symmetry& other : symmetries) {
             if (other.map.mirrors &&
-                std::abs(std::remainder(other.map.angle() / 2 - angle, kPi / 4)) < kSameAngle)
+                std::abs(std::remainder(other.map.angle() / 2 - angle, kRightAngle / 2)) < kFileAccuracy)
                 ++found;
         }
         if (found == 4) return angle;
@@ -57,10 +57,11 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
     const std::optional<double> axis = eighths(symmetries);
     if (!axis) return std::nullopt;
     const Vec2 centre = symmetries.front().map.centre;
-    std::array<double, 2> free{free_way(region, centre, *axis), free_way(region, centre, *axis + kPi / 4)};
+    std::array<double, 2> free{free_way(region, centre, *axis),
+                               free_way(region, centre, *axis + kRightAngle / 2)};
     double angle = *axis;
     if ((free[1] > free[0]) != (choice == 1)) {
-        angle += kPi / 4;
+        angle += kRightAngle / 2;
         std::swap(free[0], free[1]);
     }
     // Distance of the middle of a side from the centre, if the distance of the corners is 1.
@@ -78,7 +79,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
     const double radius = half * reach / std::sin(bulge);
     std::vector<Vec2> rim; // counter-clockwise
     for (int k = 0; k < 4; ++k) {
-        const double out = angle + (k + 0.5) * kPi / 2;
+        const double out = angle + (k + 0.5) * kRightAngle;
         const Vec2 along(std::cos(out), std::sin(out));
         const Vec2 about = centre + (half * reach - radius * std::cos(bulge)) * along;
         for (int i = 0; i < sides; ++i) {

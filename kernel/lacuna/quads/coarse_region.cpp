@@ -13,11 +13,6 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Maximum number of runs with an odd number of sides. From each of these runs a row of quads leads to
-/// another one, and the quads of this row have double width until they are smoothed. With a larger limit,
-/// more regions can be coarsened, but more rows are distorted.
-constexpr std::size_t kMostOdd = 8;
-
 void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
 {
     made.region.loops.back().push_back(static_cast<Index>(made.own.size()));
@@ -165,7 +160,7 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides
     std::vector<std::vector<std::size_t>> corners;
     std::size_t odd = 0;
     for (const auto& loop : region.loops) odd += odd_runs(corners.emplace_back(runs_of(region, loop)));
-    if (odd % 2 != 0 || odd > kMostOdd) return std::nullopt;
+    if (odd % 2 != 0 || odd > kMostOddRuns) return std::nullopt;
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         const std::vector<Index>& loop = region.loops[l];
         made.region.loops.emplace_back();

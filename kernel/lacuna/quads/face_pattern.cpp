@@ -3,6 +3,7 @@
 
 #include <lacuna/core/message.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pattern_loop.h>
@@ -11,6 +12,7 @@
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 
 #include <algorithm>
 #include <array>
@@ -163,12 +165,11 @@ struct FacePattern {
 /// worst quad has improved. Where rows overlap, this is far faster than the untangling in `smooth_plane()`.
 void spread_folds(PlanarQuads& mesh, std::size_t fixed)
 {
-    constexpr int kSweeps = 20; // limit of sweeps; not measured
     const double before = least_scaled_jacobian(mesh.points, mesh.quads);
     if (before > 0) return;
     std::vector<Vec2> points = mesh.points, sum(points.size());
     std::vector<int> sides(points.size());
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int sweep = 0; sweep < kMostSteps; ++sweep) {
         std::fill(sum.begin(), sum.end(), Vec2::Zero());
         std::fill(sides.begin(), sides.end(), 0);
         for (const Quad& quad : mesh.quads) {
@@ -473,12 +474,9 @@ private:
     /// Try straight grid lines.
     void try_straight(TurnStyle style)
     {
-        // Maximum number of meshes of one style after a mesh with nearly square quads was found. It limits
-        // the time; not measured.
-        constexpr std::size_t kMost = 3;
         const std::size_t before = made_.size();
         for (const int rows : rows_to_try(fitting_rows(style))) {
-            if (is_fine_ || (is_square_ && made_.size() >= before + kMost)) return;
+            if (is_fine_ || (is_square_ && made_.size() >= before + kCandidates)) return;
             const PatternFiller filler = fill({0, rows, 0, 0, style});
             if (filler.turns() == 0) return; // the number of rows has no effect without soft turns
         }

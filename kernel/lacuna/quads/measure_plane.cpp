@@ -2,8 +2,10 @@
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <lacuna/core/message.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/detail/plane_stars.h>
 #include <lacuna/quads/detail/region_loops.h>
 
@@ -114,8 +116,7 @@ double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad>
 double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads,
                              const RunContext& context)
 {
-    constexpr std::size_t kBlock = 4096; // quads per block of parallel work; not measured
-    return parallel_min(context, quads.size(), kBlock, 1, [&](std::size_t begin, std::size_t end) {
+    return parallel_min(context, quads.size(), kBetweenPolls, 1, [&](std::size_t begin, std::size_t end) {
         return least_scaled_jacobian(points, quads.subspan(begin, end - begin));
     });
 }
@@ -132,8 +133,8 @@ std::vector<double> boundary_angles(const PlanarRegion& region)
 double row_corner(double angle, Index quads)
 {
     // The boundary of a hole with eight sides bends by 45° at each node.
-    constexpr double kMostBend = kRightAngle / 2 * (1 + 1e-6);
-    return quads == 2 && std::abs(angle - 2 * kRightAngle) <= kMostBend ? angle / 2 : kRightAngle;
+    return quads == 2 && std::abs(angle - 2 * kRightAngle) <= kRightAngle / 2 + kFileAccuracy ? angle / 2
+                                                                                              : kRightAngle;
 }
 
 bool may_be_good(double angle, Index quads)
@@ -141,14 +142,7 @@ bool may_be_good(double angle, Index quads)
     return std::abs(angle / static_cast<double>(quads) - row_corner(angle, quads)) <= kRowOffRight;
 }
 
-bool may_be_good(double angle)
-{
-    constexpr Index kMostQuads = 4; // a full turn has four right angles
-    for (Index quads = 1; quads <= kMostQuads; ++quads) {
-        if (may_be_good(angle, quads)) return true;
-    }
-    return false;
-}
+bool may_be_good(double angle) { return may_be_good(angle, quads_in(angle)); }
 
 PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
 {

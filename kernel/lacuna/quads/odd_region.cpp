@@ -8,6 +8,7 @@
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/mesh/shared/incidence.h>
 #include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 
 #include <algorithm>
 #include <array>
@@ -20,11 +21,9 @@
 namespace lacuna::quads {
 namespace {
 
-/// Maximum number of sides that are tried.
-constexpr std::size_t kSidesTried = 4;
 /// Only this many quads of a row, counted from the boundary, are tried as the triangle, so the triangle is
 /// near the boundary.
-constexpr std::size_t kMostSteps = 8;
+constexpr std::size_t kRowSteps = 8;
 /// Number of rings of cells around the closed row whose nodes are moved, and number of rounds of moves. If
 /// the mesh is smoothed later, `kFewRounds` is used. More rings or rounds improve the worst cell only
 /// slightly.
@@ -126,8 +125,6 @@ private:
     /// the best worst cell.
     bool move(Index n)
     {
-        // First and last step as shares of the mean side, and the minimum gain. Smaller steps gain little.
-        constexpr double kFirst = 0.2, kLast = 0.01, kGain = 1e-3;
         Vec2 mean = Vec2::Zero();
         double side = 0, count = 0;
         for (const Index q : at_.of(index(n))) {
@@ -147,14 +144,14 @@ private:
             return worst_at(n, floor);
         };
         const double before = worst_at(n, -1);
-        double worst = value(mean / count, before + kGain);
-        if (worst > before + kGain)
+        double worst = value(mean / count, before + kVisible);
+        if (worst > before + kVisible)
             best = mean / count;
         else
             worst = before;
-        worst = geometry::pattern_search(best, worst, {side / count, kFirst, kLast, kGain}, value);
+        worst = geometry::pattern_search(best, worst, {side / count, kVisible}, value);
         points_[index(n)] = best;
-        return worst > before + kGain;
+        return worst > before + kVisible;
     }
 
     Closed& closed_;
@@ -186,17 +183,15 @@ struct Window {
 /// @param middle   the added node; all nodes before it are nodes of the region.
 Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle)
 {
-    // Number of rings of quads to include. A row extends at most kMostSteps - 1 rings from the middle node,
-    // the nodes that move lie up to kRings further, and one more ring contains their cells. The other two
-    // rings are a margin.
-    constexpr std::size_t kReach = kMostSteps + kRings + 2;
     const mesh::Incidence at = mesh::quads_at_nodes(mesh.quads, mesh.points.size());
     std::vector<Index> number(mesh.points.size(), -1);
     std::vector<char> taken(mesh.quads.size(), 0);
     Window window;
     window.nodes.push_back(middle);
     number[index(middle)] = 0;
-    for (std::size_t ring = 0, begin = 0; ring < kReach; ++ring) {
+    // A row extends at most kRowSteps - 1 rings from the middle node, the nodes that move lie up to kRings
+    // further, and one more ring contains their cells. The other two rings are a margin.
+    for (std::size_t ring = 0, begin = 0; ring < kRowSteps + kRings + 2; ++ring) {
         const std::size_t end = window.nodes.size();
         for (; begin < end; ++begin) {
             for (const Index q : at.of(index(window.nodes[begin]))) {
@@ -248,7 +243,7 @@ std::vector<Row> rows_from(const Window& window)
         Row row;
         std::set<Index> touched;
         Index side = first;
-        for (std::size_t step = 0; step < kMostSteps && side >= 0; ++step) {
+        for (std::size_t step = 0; step < kRowSteps && side >= 0; ++step) {
             const Index a = end_of(side, 0), b = end_of(side, 1);
             // Two boundary nodes must not be merged, unless one of them is the added node.
             const bool both = window.on_rim[index(a)] != 0 && window.on_rim[index(b)] != 0;
@@ -423,7 +418,7 @@ PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& 
     std::optional<Closed> best;
     const std::vector<RegionSide> sides = sides_by_length(region);
     const auto middle = static_cast<Index>(region.points.size());
-    for (std::size_t s = 0; s < std::min(sides.size(), kSidesTried); ++s) {
+    for (std::size_t s = 0; s < std::min(sides.size(), kCandidates); ++s) {
         const PlanarRegion divided = divide(region, std::span(&sides[s], 1));
         const PlanarQuads filled = mesher(divided, context);
         if (std::optional<Closed> closed = close_best(filled, divided, middle, best, kRounds, context))

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/open_corners.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/detail/quad_net.h>
 #include <lacuna/quads/detail/region_loops.h>
 #include <lacuna/quads/shared/measure_plane.h>
@@ -68,25 +69,24 @@ public:
     CornerOpener(PlanarQuads& mesh, const PlanarRegion& region)
         : mesh_(mesh), fixed_(region.points.size()), net_(mesh.points.size(), mesh.quads)
     {
-        constexpr double kWidest = 0.9 * std::numbers::pi; // 162°: a sine of 0.3
-        constexpr double kWide = 0.78 * std::numbers::pi;  // 140°: a sine of 0.64
+        // In a wider corner a quad is poor.
+        const double widest = std::numbers::pi - std::asin(kPoorQuad), wide = kCornerBelow * kDegree;
         needed_.assign(fixed_, 0);
         better_.assign(fixed_, 0);
         for (const Cycle& loop : region.loops) {
             for (std::size_t i = 0; i < loop.size(); ++i) {
                 const double angle = corner_angle(mesh.points, loop, i);
-                needed_[index(loop[i])] = static_cast<int>(std::ceil(angle / kWidest));
-                better_[index(loop[i])] = static_cast<int>(std::ceil(angle / kWide));
+                needed_[index(loop[i])] = static_cast<int>(std::ceil(angle / widest));
+                better_[index(loop[i])] = static_cast<int>(std::ceil(angle / wide));
             }
         }
     }
 
     void run()
     {
-        constexpr int kMostTries = 4; // each try adds a quad at the node, and no angle needs more than four
         for (Index p = 0; index(p) < fixed_; ++p) {
             if (!net_.is_used(p)) continue;
-            for (int tries = 0; tries < kMostTries && net_.valence(p) < needed(p); ++tries)
+            for (int tries = 0; tries < needed(p) && net_.valence(p) < needed(p); ++tries)
                 if (!swap_edge(p, 0)) pillow_widest(p);
             // A wide node gets another quad if the quads around it stay good.
             if (net_.valence(p) < better_[index(p)]) swap_edge(p, kPoorQuad);

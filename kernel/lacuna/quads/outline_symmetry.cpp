@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/outline_symmetry.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
@@ -138,10 +139,9 @@ struct Axis {
 /// Number of sides that the size requires along a line.
 double sides_along(const Vec2& from, const Vec2& to, const SizeField& size)
 {
-    constexpr int kSamples = 64;
     double sum = 0;
-    for (int i = 0; i < kSamples; ++i) sum += 1 / size(from + (i + 0.5) / kSamples * (to - from));
-    return sum * (to - from).norm() / kSamples;
+    for (int i = 0; i < kFineChords; ++i) sum += 1 / size(from + (i + 0.5) / kFineChords * (to - from));
+    return sum * (to - from).norm() / kFineChords;
 }
 
 /// Cuts a region between two rays from its centre. Two opposite rays form one line.
@@ -375,14 +375,13 @@ bool lies_in(const PlanarRegion& region, const Vec2& p)
 /// The angles at which the part may begin and end. The pair with the best rank comes first.
 std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, bool has_centre)
 {
-    constexpr double kPi = std::numbers::pi;
     // Maximum number of axes through a centre outside the region. If the parts were many and narrow, there
     // would be little room for irregular nodes.
     constexpr std::size_t kMostAxes = 8;
     if (!has_centre && axes.size() > 1) {
         std::size_t every = (axes.size() + kMostAxes - 1) / kMostAxes;
         while (axes.size() % every != 0) ++every;
-        return {{axes[0].angle, every == axes.size() ? axes[0].angle + kPi : axes[every].angle}};
+        return {{axes[0].angle, every == axes.size() ? axes[0].angle + 2 * kRightAngle : axes[every].angle}};
     }
     struct Pair {
         int worth;
@@ -391,18 +390,18 @@ std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, 
     std::vector<Pair> pairs;
     for (const Axis& axis : axes) {
         for (const Axis& other : axes) {
-            if (std::abs(other.angle - axis.angle - kPi / 2) <= kFileAccuracy)
+            if (std::abs(other.angle - axis.angle - kRightAngle) <= kFileAccuracy)
                 pairs.push_back({axis.worth + other.worth, axis.angle});
         }
     }
     std::ranges::stable_sort(pairs, [](const Pair& a, const Pair& b) { return a.worth > b.worth; });
     std::vector<std::array<double, 2>> parts;
-    for (const Pair& pair : pairs) parts.push_back({pair.angle, pair.angle + kPi / 2});
+    for (const Pair& pair : pairs) parts.push_back({pair.angle, pair.angle + kRightAngle});
     if (!parts.empty()) return parts;
     const double angle = std::ranges::max_element(axes, [](const Axis& a, const Axis& b) {
                              return a.worth < b.worth;
                          })->angle;
-    return {{angle, angle + kPi}};
+    return {{angle, angle + 2 * kRightAngle}};
 }
 
 } // namespace
@@ -432,8 +431,8 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
         const bool mirrors = j % 2 != 0;
         const double turn = mirrors ? 2 * from + (j + 1) * angle : j * angle;
         const auto found = std::ranges::find_if(symmetries, [&](const Symmetry& s) {
-            return s.map.mirrors == mirrors && std::abs(s.map.cosine - std::cos(turn)) < kSameAngle &&
-                   std::abs(s.map.sine - std::sin(turn)) < kSameAngle;
+            return s.map.mirrors == mirrors && std::abs(s.map.cosine - std::cos(turn)) < kFileAccuracy &&
+                   std::abs(s.map.sine - std::sin(turn)) < kFileAccuracy;
         });
         if (found == symmetries.end()) return std::nullopt;
         part->images.push_back({{centre, std::cos(turn), std::sin(turn), mirrors}, found->to});

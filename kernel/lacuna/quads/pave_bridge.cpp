@@ -4,6 +4,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/quads/detail/loop_sides.h>
+#include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pave_cut.h>
 
 #include <deque>
@@ -19,11 +20,7 @@ namespace {
 constexpr std::size_t kNearest = 16;
 
 /// Step between the nodes of a loop from which lines are tried.
-std::size_t stride_of(std::size_t n)
-{
-    constexpr std::size_t kMost = 48; // maximum number of nodes of a loop that are tried
-    return std::max<std::size_t>(1, n / kMost);
-}
+std::size_t stride_of(std::size_t n) { return std::max<std::size_t>(1, n / kPlacesTried); }
 
 class LoopJoiner {
 public:

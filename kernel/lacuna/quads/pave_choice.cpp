@@ -3,6 +3,7 @@
 
 #include <lacuna/core/message.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/marks.h>
 #include <lacuna/quads/detail/mirror_counts.h>
@@ -26,10 +27,6 @@ namespace {
 /// A region with at most this many quads is paved in several ways. This takes at most 0.5 s for 3000 quads,
 /// measured on the named outlines.
 constexpr std::size_t kSmall = 4000;
-/// Maximum total number of quads that are made with the rows of weights. The first value is about eight
-/// meshes of a region with kSmall quads. The second, lower value applies if the worst quad stays poor,
-/// because the outline is then the cause and not the cuts.
-constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
 
 /// The first seven rows that `choose_weights choose 1 240` prints (`benchmarks/pave/`): chosen greedily from
 /// 48 candidates to maximise the mean score of the best attempt over 220 generated outlines. Each further row
@@ -73,12 +70,12 @@ bool is_near_least(const PlaneQuality& quality, int least)
            quality.row_share() > kFineRows;
 }
 
-/// A region with fewer than kFewQuads quads is paved only with `kFewWeights` and once with rows along the
+/// A region with fewer than kFewWeighted quads is paved only with `kFewWeights` and once with rows along the
 /// boundary, unless the result is poor. Only the kFinished attempts with the fewest initial irregular nodes
 /// are finished. On the outlines used for choosing these weights, the score is 0.01 lower than with all other
 /// rows of weights together, but there are a fifth fewer irregular nodes and it takes a quarter of the time.
 /// With a third finished attempt, the score would be the same.
-constexpr std::size_t kFewQuads = 1500, kFinished = 2;
+constexpr std::size_t kFewWeighted = 1500, kFinished = 2;
 /// The other attempts are finished too if the worst quad is below kFair and also below kNearly times the best
 /// value that the boundary's corners permit. With higher bounds, more time is spent for a better worst quad.
 constexpr double kFair = 0.75, kNearly = 0.97;
@@ -195,13 +192,12 @@ std::span<const CutWeights> cut_weight_rows() { return kCutWeights; }
 
 double flat_below(const PlanarRegion& region)
 {
-    // The sine of about 1°, or a share of the sine of the outline's sharpest corner. With higher values, more
-    // flat quads are replaced by cavities, which have more irregular nodes.
-    constexpr double kFlat = 0.02, kShare = 0.3;
+    // The quad in the outline's sharpest corner is not flat. With higher values, more flat quads are replaced
+    // by cavities, which have more irregular nodes.
     double sharpest = 1;
     for (const double angle : boundary_angles(region))
         if (angle < kRightAngle) sharpest = std::min(sharpest, std::sin(angle));
-    return std::min(kFlat, kShare * sharpest);
+    return std::min(kParallel, kPoorQuad * sharpest);
 }
 
 AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& options,
@@ -212,8 +208,8 @@ AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& op
       context_(context),
       cut_(cut),
       least_irregular_(least_irregular(region)),
-      is_few_(quads_within(region) < kFewQuads),
-      few_graded_(quads_within(region) < kFewForGrading && region.size),
+      is_few_(quads_within(region) < kFewWeighted),
+      few_graded_(quads_within(region) < kFewQuads && region.size),
       setting_{region_, {}, flat_below(region)}
 {
     BoundarySizes sizes = sizes_with_boundary(region);
@@ -231,7 +227,6 @@ AttemptChooser::Judged AttemptChooser::judge_score(Attempt& made) const
 
 void AttemptChooser::consider(Attempt made)
 {
-    made_ += made.mesh.quads.size();
     const auto [score, quality] = judge_score(made);
     if (score <= best_score_) return;
     best_score_ = score;
@@ -383,10 +378,9 @@ bool AttemptChooser::try_blocks()
 
 Attempt AttemptChooser::fill_about(const CentralBlock& block) const
 {
-    constexpr std::size_t kImages = 8;
     const AttemptChooser chooser(block.around, {}, context_);
     const std::optional<MirrorPart> part = chooser.part_of_region();
-    if (!part || part->images.size() != kImages) return {};
+    if (!part) return {};
     Attempt attempt = chooser.fill_part(*part);
     if (attempt.worst <= 0) return {};
     attempt.mesh = with_block(block, std::move(attempt.mesh));
@@ -477,10 +471,12 @@ void AttemptChooser::try_all_weights()
 {
     if (best_.worst <= setting_.flat || !is_small() || is_good_enough()) return;
     if (is_few_ && best_.worst > kPoorQuad) return;
+    int idle = 0; // if other cuts do not help, the outline is the cause
     for (const CutWeights& weights : cut_weight_rows()) {
-        const std::size_t most = best_.worst > kPoorQuad ? kMostMade : kMostMadePoor;
-        if (made_ >= most || is_good_enough()) return;
+        if (idle == kIdleRounds || is_good_enough()) return;
+        const double before = best_score_;
         finish(begin(best_.style, weights));
+        idle = best_score_ > before ? 0 : idle + 1;
     }
 }
 

@@ -19,9 +19,6 @@ namespace {
 /// A coarse region with this many quads is coarsened again. This limits the time for paving the coarsest
 /// region.
 constexpr double kManyStill = 8000;
-/// Maximum number of sides that may be divided to make all runs even. Each divided side leaves a triangle
-/// with a few irregular nodes.
-constexpr std::size_t kMostDivided = 8;
 
 /// The sides to divide so that every run from corner to corner, and every loop without corners, has an even
 /// number of sides. The longest side of each odd run is taken. Empty if there are too many odd runs.
@@ -41,7 +38,7 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
             for (std::size_t i = from; i < to; ++i)
                 if (length(i) > length(longest)) longest = i;
             sides.push_back({l, longest % loop.size()});
-            if (sides.size() > kMostDivided) return std::nullopt;
+            if (sides.size() > kMostOddRuns) return std::nullopt;
         }
     }
     return sides;

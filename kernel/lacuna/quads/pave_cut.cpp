@@ -45,17 +45,13 @@ public:
                 if (auto line = line_between(places[s], places[t])) lines_.push_back(*line);
             }
         }
-        // Maximum length of a line, relative to the length of the outline that it cuts off. Longer lines are
-        // seldom good and are tried only if there is no other line.
-        constexpr double kShort = 0.85;
-        auto cut = find_among(kShort);
-        return cut ? cut : find_among(kInfinity);
+        return cheapest();
     }
 
 private:
     /// The cheapest line that crosses nothing. A line is checked only if it may be cheaper than the cheapest
     /// line so far.
-    std::optional<Cut> find_among(double longest)
+    std::optional<Cut> cheapest()
     {
         // Minimum distance of a line from the nodes that it passes, as a share of its edge length. Nodes at a
         // smaller distance would get quads of half the size. If all lines pass nodes at a smaller distance,
@@ -70,7 +66,6 @@ private:
             std::pop_heap(lines_.begin(), end, later);
             const Line& next = *--end;
             if (best && next.cost >= best->cost) break;
-            if (next.reach > longest) continue;
             const auto choice = judge(next, best ? best->cost : kInfinity);
             if (!choice || !sides_.is_clear(cycle_[next.from], cycle_[next.to])) continue;
             if (keeps_away(*choice, kAway))
@@ -91,7 +86,6 @@ private:
     /// A candidate line, before its number of edges is chosen.
     struct Line {
         std::size_t from = 0, to = 0;
-        double reach = 0;                  ///< length relative to the outline that it cuts off
         double cost = 0;                   ///< cost of the length, and of the angles at both ends
         double part_from = 0, part_to = 0; ///< angles between the outline and the line
     };
@@ -121,19 +115,14 @@ private:
 
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
-        /// Number of nodes that are tried at even steps along the outline.
-        constexpr std::size_t kSpread = 32;
-        /// Maximum number of further nodes that are tried where the outline turns inward. Both limits bound
-        /// the time.
-        constexpr std::size_t kFeatures = 64;
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
             if (angles_[i] > kReversalAbove * kDegree) bent.push_back(i);
         }
-        stride_ = n_ <= kSpread ? 1 : std::max<std::size_t>(2, n_ / kSpread);
+        stride_ = n_ <= kPlacesTried ? 1 : std::max<std::size_t>(2, n_ / kPlacesTried);
         std::vector<std::size_t> places;
         for (std::size_t i = 0; i < n_; i += stride_) places.push_back(i);
-        const std::size_t skip = bent.size() / kFeatures + 1;
+        const std::size_t skip = bent.size() / kPlacesTried + 1;
         for (std::size_t i = 0; i < bent.size(); i += skip) places.push_back(bent[i]);
         std::ranges::sort(places);
         places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -151,11 +140,13 @@ private:
         if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle) return std::nullopt;
         const double part_j = whole_turn(heading + std::numbers::pi - heading_[j]);
         if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
-        const double arc = arc_[j] - arc_[i], reach = along.norm() / std::min(arc, arc_[n_] - arc);
+        const double arc = arc_[j] - arc_[i];
+        // Length relative to the outline that the line cuts off.
+        const double reach = along.norm() / std::min(arc, arc_[n_] - arc);
         const double cost = weights.length * reach - (gain(i) + gain(j)) +
                             end_cost(angles_[i], part_i, weights) * firmness(i) +
                             end_cost(angles_[j], part_j, weights) * firmness(j);
-        return Line{i, j, reach, cost, part_i, part_j};
+        return Line{i, j, cost, part_i, part_j};
     }
 
     /// Choose the number of edges on a line, and add the cost of this number to the cost of the line.
@@ -163,7 +154,7 @@ private:
     ///          or more
     [[nodiscard]] std::optional<Choice> judge(const Line& line, double most) const
     {
-        const auto& [i, j, reach, cost, part_i, part_j] = line;
+        const auto& [i, j, cost, part_i, part_j] = line;
         Choice choice{{i, j, 0}, cost};
         if (choice.cost >= most) return std::nullopt;
         // The number of edges is the length times the mean of 1 / size.

@@ -3,15 +3,13 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/triangulate.h>
+#include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/detail/pave_gaps.h>
 
 #include <optional>
 
 namespace lacuna::quads::paving {
 namespace {
-
-/// Maximum number of quads at a node, which is then a reversal; no angle exceeds four right angles.
-constexpr int kMostQuads = 4;
 
 Vec2 rotated(const Vec2& v, double angle)
 {
@@ -34,13 +32,10 @@ std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
         heights[i] = std::min(wanted, gaps.ahead(before, cycle[i], after, inward, reach) / 3);
     }
     if (kind == RowKind::exact) return heights;
-    /// Largest ratio of heights at neighbouring nodes. With a higher ratio, the row follows gaps more closely
-    /// but is less even.
-    constexpr double kChange = 1.3;
     for (int pass = 0; pass < 2; ++pass) {
         for (std::size_t k = 0; k < 2 * n; ++k) {
             const std::size_t i = k % n, b = (i + n - 1) % n;
-            heights[i] = std::min(heights[i], kChange * heights[b]);
+            heights[i] = std::min(heights[i], (1 + kGrading) * heights[b]);
         }
         std::ranges::reverse(heights);
     }
@@ -75,7 +70,7 @@ public:
     }
 
 private:
-    [[nodiscard]] int kind(std::size_t i) const { return std::min(quads_in(angles_[i % n_]), kMostQuads); }
+    [[nodiscard]] int kind(std::size_t i) const { return quads_in(angles_[i % n_]); }
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
     /// Whether there are at least three edges between two ends. At each end, the row's inner side has one

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/raise_flat_quads.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/quads/detail/plane_stars.h>
 #include <lacuna/quads/shared/measure_plane.h>
@@ -16,9 +17,6 @@ namespace {
 /// @param least_side  minimum length of the point's sides [length]
 bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p, double least_side)
 {
-    // Steps as shares of the mean distance to the neighbours. With smaller last steps and gains, a few more
-    // folds are opened, but it takes longer.
-    constexpr double kFirst = 1.0 / 2, kLast = 1.0 / 17, kLeastGain = 1e-3;
     if (star.empty()) return false;
     const auto worst_at = [&](const Vec2& x) { return worst_quad(points, star, x); };
     Vec2 mean = Vec2::Zero(), x = points[p];
@@ -40,24 +38,22 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
         worst = found;
         points[p] = to;
     }
-    worst = geometry::pattern_search(
-        points[p], worst, {distance / count, kFirst, kLast, 0}, [&](const Vec2& to, double floor) {
-            const double found = worst_at(to);
-            return found > floor && shortest_side(points, star, to) < least_side ? floor : found;
-        });
-    return worst > before + kLeastGain;
+    worst = geometry::pattern_search(points[p], worst, {distance / count}, [&](const Vec2& to, double floor) {
+        const double found = worst_at(to);
+        return found > floor && shortest_side(points, star, to) < least_side ? floor : found;
+    });
+    return worst > before + kVisible;
 }
 
 } // namespace
 
 void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed)
 {
-    constexpr int kSweeps = 12; // maximum; most meshes need fewer sweeps
     const auto is_flat = [&](const Quad& quad) { return scaled_jacobian(mesh.points, quad) <= kFlatQuad; };
     if (std::ranges::none_of(mesh.quads, is_flat)) return;
     const Stars stars(mesh.points.size(), mesh.quads);
     const std::vector<double> least_side = sides_to_keep(mesh.points, stars, fixed);
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int sweep = 0; sweep < kMostSteps; ++sweep) {
         std::vector<char> flat(mesh.points.size(), 0);
         for (const Quad& quad : mesh.quads) {
             if (!is_flat(quad)) continue;

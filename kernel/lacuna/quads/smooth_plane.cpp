@@ -2,11 +2,13 @@
 #include <lacuna/quads/detail/smooth_plane.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/quads/detail/plane_energy.h>
 #include <lacuna/quads/detail/untangle_plane.h>
 #include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 
 #include <algorithm>
 #include <numeric>
@@ -40,10 +42,6 @@ bool has_needles(std::span<const Vec2> points, std::span<const Quad> quads, std:
     return given < kInfinity && shortest < kOfShortest * kOfShortest * given;
 }
 
-/// At least kMany points are swept in blocks of kBlock consecutive numbers. In most meshes, points with close
-/// numbers are close to each other, so most neighbours of a point are in its block. Not measured.
-constexpr std::size_t kMany = 20'000, kBlock = 4096;
-
 class Smoother {
 public:
     Smoother(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed,
@@ -56,7 +54,7 @@ public:
           awake_(points.size(), 0)
     {
         std::fill(awake_.begin() + static_cast<std::ptrdiff_t>(fixed), awake_.end(), 1);
-        if (points.size() >= kMany) part_in_blocks();
+        if (points.size() >= kManyQuads) part_in_blocks();
     }
 
     /// Move every point that is awake by one step. In large meshes, the points inside blocks move first, with
@@ -66,10 +64,11 @@ public:
     std::size_t sweep(double floor, double overstep, const RunContext& context)
     {
         if (inside_.empty()) return sweep_range({fixed_, points_.size(), 0, floor, overstep});
-        std::vector<std::size_t> moved((points_.size() - fixed_ + kBlock - 1) / kBlock, 0);
+        std::vector<std::size_t> moved((points_.size() - fixed_ + kBetweenPolls - 1) / kBetweenPolls, 0);
         parallel_each(context, moved.size(), 1, [&](std::size_t b) {
-            const std::size_t first = fixed_ + b * kBlock;
-            moved[b] = sweep_range({first, std::min(first + kBlock, points_.size()), 1, floor, overstep});
+            const std::size_t first = fixed_ + b * kBetweenPolls;
+            moved[b] = sweep_range(
+                {first, std::min(first + kBetweenPolls, points_.size()), 1, floor, overstep});
         });
         return std::accumulate(moved.begin(), moved.end(),
                                sweep_range({fixed_, points_.size(), 0, floor, overstep}));
@@ -84,7 +83,7 @@ public:
             least_side_ = sides_to_keep(points_, stars_, fixed_);
         }
         std::vector<char> is_poor(quads_.size(), 0), poor(points_.size(), 0);
-        parallel_each(context, quads_.size(), kBlock, [&](std::size_t q) {
+        parallel_each(context, quads_.size(), kBetweenPolls, [&](std::size_t q) {
             const Quad& quad = quads_[q];
             const bool still = std::ranges::none_of(quad, [&](Index p) { return restless_[index(p)] != 0; });
             is_poor[q] = !still && scaled_jacobian(points_, quad) < floor;
@@ -109,7 +108,7 @@ public:
         if (!options_.size || !(options_.size_weight > 0)) return;
         areas_.weight = options_.size_weight;
         areas_.asked.resize(points_.size());
-        parallel_each(context, points_.size(), kBlock, [&](std::size_t p) {
+        parallel_each(context, points_.size(), kBetweenPolls, [&](std::size_t p) {
             const double size = options_.size(points_[p]);
             areas_.asked[p] = {size * size, 1 / (size * size)};
         });
@@ -128,9 +127,9 @@ private:
     {
         inside_.assign(points_.size(), 0);
         for (std::size_t p = fixed_; p < points_.size(); ++p) {
-            const std::size_t block = (p - fixed_) / kBlock;
+            const std::size_t block = (p - fixed_) / kBetweenPolls;
             const auto is_near = [&](Index other) {
-                return index(other) < fixed_ || (index(other) - fixed_) / kBlock == block;
+                return index(other) < fixed_ || (index(other) - fixed_) / kBetweenPolls == block;
             };
             const auto star = stars_[p];
             inside_[p] = std::ranges::all_of(star, [&](const Spoke& spoke) {
@@ -203,8 +202,6 @@ private:
     /// increased
     bool raise_at(std::size_t p)
     {
-        // First and last step as shares of the shortest side, and the minimum gain of the sine. Not measured.
-        constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
         const auto star = stars_[p];
         if (star.empty()) return false;
         // The sine alone would let points collapse onto each other. Sides therefore keep a share of their
@@ -220,8 +217,7 @@ private:
             const double sine = least_sine_above(points_, star, to, floor, first);
             return sine > floor && shortest_side(points_, star, to) < shortest ? floor : sine;
         };
-        return geometry::pattern_search(points_[p], before, {reach, kFirst, kLast, kLeastGain}, sine_at) >
-               before + kLeastGain;
+        return geometry::pattern_search(points_[p], before, {reach, kVisible}, sine_at) > before + kVisible;
     }
 
     std::vector<Vec2>& points_;

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/square_rows.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/plane_energy.h>
@@ -286,7 +287,7 @@ private:
             return cost < -least && least_sine(mesh_.points, star, at(p)) >= floor ? -cost : least;
         };
         Vec2 x = start;
-        geometry::pattern_search(x, -cost_above(p, kInfinity), {side, kFirst, kLast, 0}, value, ways_);
+        geometry::pattern_search(x, -cost_above(p, kInfinity), {side, 0, kFirst, kLast}, value, ways_);
         place(p, x);
         if (x == start) {
             for (std::size_t i = 0; i < near_.size(); ++i)
@@ -335,20 +336,17 @@ double worth_of(const PlaneQuality& quality)
 void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries, bool sizes,
              PlaneQuality& quality)
 {
-    // Accepted loss of mean scaled Jacobian for better rows.
-    constexpr double kLess = 0.01;
-    constexpr int kRounds = 12, kIdle = 3; // maximum number of rounds, and of consecutive rounds without gain
-    constexpr double kStill = 0.03;        // share of a side: smaller moves do not count as moves
+    constexpr double kStill = 0.03; // share of a side: smaller moves do not count as moves
     const PlaneQuality before = quality;
     const double rounding = symmetries.empty() ? 0 : kFileAccuracy;
     const auto keeps = [](double was, double is) { return is >= kPromisedShare || was < kPromisedShare; };
     PlanarQuads made = mesh;
     RowSquarer squarer(made, region, symmetries, sizes);
-    for (int round = 0, idle = 0; round < kRounds && idle < kIdle; ++round, ++idle) {
+    for (int round = 0, idle = 0; round < kMostSteps && idle < kIdleRounds; ++round, ++idle) {
         const double most = squarer.round();
         const PlaneQuality after = measure_plane(made, region);
         if (worth_of(after) > worth_of(quality) &&
-            after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kLess &&
+            after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kSameQuality &&
             after.min_scaled_jacobian >= before.min_scaled_jacobian - rounding &&
             keeps(before.row_share(), after.row_share()) && keeps(before.size_share(), after.size_share())) {
             quality = after;

@@ -52,7 +52,6 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
                                 const std::vector<double>& feet, const CountRange& range)
 {
     constexpr std::array<double, 11> kShares{1, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 1.05, 1.1, 1.15, 1.2};
-    constexpr double kQuads = 0.25; // weight of the number of quads, as in `straight_counts()`
     const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
     const double asked = quads_asked(task);
     const std::size_t n = sides.size();
@@ -82,7 +81,7 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
                 quads += foot[i] * foot[(i + 1) % n];
             }
             if (!is_allowed || !are_alike(counts.sides, pairs)) continue;
-            counts.cost += kQuads * (quads - asked) * (quads - asked) / asked;
+            counts.cost += kWeightOfQuads * (quads - asked) * (quads - asked) / asked;
             if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOffAsked;
             if (counts.cost < (best ? best->cost : kInfinity)) best = std::move(counts);
         }

@@ -18,13 +18,9 @@
 namespace lacuna::quads {
 namespace {
 
-/// If there are fewer quads than this, a grid is made for several solutions and the best one is used. With
-/// more quads this takes too long.
-constexpr double kFewForTrial = 200;
-
 bool may_be_tried(const CountTask& task, const StraightOptions& options)
 {
-    return !options.is_part && quads_asked(task) < kFewForTrial;
+    return !options.is_part && quads_asked(task) < kFewQuads;
 }
 
 /// The loops of a region with headings in a straight grid.
@@ -198,9 +194,6 @@ std::vector<int> run_counts(const ClosedLoops& closed)
 /// @return  the solutions with their costs. For a part, only solutions that may be the cheapest one.
 std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, TurnStyle style)
 {
-    // Weights of two deviations: of the number of quads from the requested number, and of the number of rows
-    // from `fitting_rows()`. Chosen on 40 outlines of the family that `--held` draws (benchmarks/pave/).
-    constexpr double kQuads = 0.25, kRows = 1;
     // Cost of mirrored segments with unequal numbers; it nearly excludes them. Not measured.
     constexpr double kUnlike = 10;
     // Not measured:
@@ -237,14 +230,14 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             if (options.is_part) {
                 const int fitting = headed->fitting;
                 const double off = std::log(static_cast<double>(rows) / fitting);
-                of_part = kRows * closed->soft * std::max(1.0, fitting / 2.0) * off * off +
+                of_part = closed->soft * std::max(1.0, fitting / 2.0) * off * off +
                           kUnlike * unlike(counts.sides, pairs);
                 if (counts.cost + of_part >= least) continue;
             }
             add_grids(task, *headed, rows, *closed);
             const bool has_grids = closed->grids.size() == closed->loops.size();
             const double quads = has_grids ? closed->quads : asked; // unknown if a loop has no grid
-            counts.cost += kQuads * (quads - asked) * (quads - asked) / asked + of_part;
+            counts.cost += kWeightOfQuads * (quads - asked) * (quads - asked) / asked + of_part;
             const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
             if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOff;
             // Check that the grid has room for the holes. A grid with few lines may not have room. With many
@@ -304,16 +297,14 @@ std::optional<double> score_of_counts(const CountTask& task, std::span<const int
 /// grid is good. Empty if no grid is valid, or if there is only one solution.
 std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all)
 {
-    // Score at which the search ends, and maximum number of grids, to limit the time. Not measured.
-    constexpr double kGood = 3.1;
-    constexpr std::size_t kMost = 4;
+    constexpr double kGood = 3.1; // score at which the search ends, to limit the time. Not measured
     std::ranges::stable_sort(all, is_cheaper);
     const auto alike = [](const Counts& a, const Counts& b) { return a.sides == b.sides; };
     all.erase(std::unique(all.begin(), all.end(), alike), all.end());
     if (all.size() < 2) return std::nullopt;
     std::optional<Counts> best;
     double most = -kInfinity;
-    for (std::size_t i = 0; i < std::min(kMost, all.size()) && most < kGood; ++i) {
+    for (std::size_t i = 0; i < std::min(kCandidates, all.size()) && most < kGood; ++i) {
         const auto score = score_of_counts(task, all[i].sides);
         if (!score || *score <= most) continue;
         most = *score;
@@ -327,7 +318,7 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
 std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
 {
     // The cost of solutions with soft turns at ends of 135° is divided by this number, which was chosen like
-    // kQuads.
+    // `kWeightOfQuads`.
     constexpr double kSoft = 2;
     std::vector<Counts> all = counts_looked_at(task, options, TurnStyle::soft);
     const auto add = [&](TurnStyle style) {

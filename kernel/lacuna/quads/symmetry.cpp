@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/shared/symmetry.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/mesh_symmetry.h>
@@ -121,9 +122,8 @@ std::size_t symmetrise(PlanarQuads& mesh, std::size_t fixed, std::span<const Sym
     // After complete smoothing, nodes are close to the means of their images, and moving them to these means
     // does not reduce the quality. If smoothing stopped early, the moves may reduce the quality; the mesh is
     // then left unchanged.
-    constexpr double kWorse = 0.01; // accepted decrease of the smallest scaled Jacobian; not measured
     const double before = least_scaled_jacobian(mesh.points, mesh.quads);
-    if (least_scaled_jacobian(made.points, made.quads) < before - kWorse) return 1;
+    if (least_scaled_jacobian(made.points, made.quads) < before - kSameQuality) return 1;
     mesh = std::move(made);
     return symmetries.size() + 1;
 }

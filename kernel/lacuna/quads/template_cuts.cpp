@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/patch_template.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
@@ -10,10 +11,6 @@
 namespace lacuna::quads {
 
 namespace {
-
-/// Maximum slant of a cut at the outline: 0 is perpendicular to the outline, 1 is along it. Cuts with a
-/// larger slant are excluded.
-constexpr double kMostSlant = 0.7;
 
 /// Twice the foot that `spoke_feet()` finds for side i: the sum of the numbers of edges of sides i, i + 2,
 /// i + 4 …, with alternating signs.
@@ -61,7 +58,7 @@ public:
             return std::abs(along_[i].side.dot(across / length)) / along_[i].length;
         };
         const double slant = (slant_at(from) + slant_at(to)) / 2;
-        if (slant > kMostSlant) return;
+        if (slant > kContinues) return; // it runs along the outline rather than away from it
         int low = std::max(1, static_cast<int>(fitting * kShortestOfSize));
         if ((to + loop_.size() - from + index(low)) % 2 != 0) ++low; // both parts need even numbers of edges
         const int high = std::min(static_cast<int>(loop_.size()),
@@ -143,8 +140,6 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
     const SideCounts counts = side_counts(loop.size(), corners);
     if (needs_no_cut(counts)) found.push_back({});
     if (!found.empty()) return found;
-    // Maximum number of positions tried along a side of three or five, to limit the time.
-    constexpr int kTried = 16;
     const CutRanker ranker(loop);
     // Difference between the indices of the two sides that the cut joins. For an even number of sides, the
     // cut has one or three corners on either side. With two corners on either side, the parts of a patch of
@@ -152,7 +147,7 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
     const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
     // If the cut joins opposite sides, each pair would occur twice.
     const std::size_t pairs = 2 * between == n ? n / 2 : n;
-    const auto steps = [&](int edges) { return n % 2 != 0 ? 1 + edges / kTried : 1; };
+    const auto steps = [&](int edges) { return n % 2 != 0 ? 1 + edges / static_cast<int>(kPlacesTried) : 1; };
     for (std::size_t side = 0; side < pairs; ++side) {
         const std::size_t other = (side + between) % n;
         // The part from the start of the cut to its end has between + 2 sides, and the other part has n -

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/untangle_plane.h>
 
-#include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
+#include <lacuna/geometry/shared/foldover.h>
 #include <lacuna/geometry/shared/minimise.h>
 #include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/detail/plane_energy.h>
@@ -16,20 +18,8 @@ namespace lacuna::quads {
 
 namespace {
 
-/// Weight of the area term relative to the shape term, from Garanzha et al.
-constexpr double kAreaShare = 1.0 / 128;
-/// Smallest regularisation ε. With a lower value, the energy is closer to a true barrier, but the
-/// minimisation is worse conditioned.
-constexpr double kLeastEpsilon = 1e-3;
-/// Number of steps that L-BFGS stores, and number of steps in a round of constant ε. Not measured.
-constexpr std::size_t kMemory = 8;
-constexpr int kSteps = 100;
-/// Maximum number of rounds, and of consecutive rounds without gain. They limit the time for folds that
-/// cannot be opened. Not measured.
-constexpr int kRounds = 30, kIdleRounds = 3;
-/// The search stops if the relative decrease of the energy in a step, or the relative increase of the
-/// smallest determinant in a round, is below this. Not measured.
-constexpr double kLeastGain = 1e-5, kLeastRise = 1e-4;
+using geometry::kSizeShare;
+
 /// Number of rings of quads around the folded quads that move with them: in the first attempt and, if it
 /// fails, in the second.
 constexpr std::array<int, 2> kRings{3, 10};
@@ -167,9 +157,9 @@ private:
             // The barrier χ, and its relative slope: χ' = χ / root.
             const Lanes over = 2 / (d + root), steep = 1 / root;
             const Lanes shape = (ax * ax + ay * ay + bx * bx + by * by) * over, area = (1 + d * d) * over;
-            sum += sum_of((1 - kAreaShare) * shape + kAreaShare * area);
-            const Lanes by_d = kAreaShare * (2 * d * over - area * steep) - (1 - kAreaShare) * shape * steep;
-            const Lanes by_length = (1 - kAreaShare) * 2 * over;
+            sum += sum_of((1 - kSizeShare) * shape + kSizeShare * area);
+            const Lanes by_d = kSizeShare * (2 * d * over - area * steep) - (1 - kSizeShare) * shape * steep;
+            const Lanes by_length = (1 - kSizeShare) * 2 * over;
             const Lanes gax = cell.inverse * (by_length * ax + by_d * by),
                         gay = cell.inverse * (by_length * ay - by_d * bx),
                         gbx = cell.inverse * (by_length * bx - by_d * ay),
@@ -202,16 +192,13 @@ bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std:
             x.segment<2>(2 * static_cast<Eigen::Index>(v)) = points[index(part.moving[v])];
         FoldEnergy energy(points, part);
         geometry::MinimiseOptions how;
-        how.iterations = kSteps;
-        how.least_gain = kLeastGain;
-        how.memory = kMemory;
         how.start_anew = false;
         double last = energy.least_determinant(x);
-        for (int round = 0, idle = 0; round < kRounds && last <= 0 && idle < kIdleRounds; ++round) {
-            energy.epsilon = std::sqrt(kLeastEpsilon * kLeastEpsilon + 0.04 * last * last);
+        for (int round = 0, idle = 0; round < kMostRounds && last <= 0 && idle < kIdleRounds; ++round) {
+            energy.epsilon = geometry::epsilon_for(last);
             x = geometry::minimise(std::cref(energy), std::move(x), how);
             const double now = energy.least_determinant(x);
-            idle = now > last + kLeastRise * std::abs(last) ? 0 : idle + 1;
+            idle = now > last + kVisible * std::abs(last) ? 0 : idle + 1;
             last = now;
         }
         if (!(last > 0)) continue;

@@ -11,7 +11,7 @@
 #include <lacuna/sweep/detail/assembly_order.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/carry_lines.h>
-#include <lacuna/sweep/detail/periodic.h>
+#include <lacuna/sweep/detail/periodic_nodes.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/source_quads.h>
@@ -44,30 +44,6 @@ void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to, cons
     give_mesh(volume, to, mesh.places, mesh.quads);
 }
 
-/// The given quads of a face. Empty if the face does not keep them.
-std::optional<FaceMesh> given_mesh(const Model& model, FaceId face)
-{
-    if (!model[face].keeps_nodes || model[face].given_quads.empty()) return std::nullopt;
-    FaceMesh mesh{quads_alone(model[face].given_quads), {}};
-    for (const Index n : mesh.nodes) mesh.places.push_back(model.at(n));
-    return mesh;
-}
-
-/// The length of the shortest side of some quads.
-double shortest_side(const FaceMesh& mesh)
-{
-    double least = kInfinity;
-    for (const Quad& quad : mesh.quads)
-        for (std::size_t k = 0; k < 4; ++k)
-            if (const Index a = quad[k], b = quad[(k + 1) % 4]; a != b)
-                least = std::min(least, (mesh.places[index(a)] - mesh.places[index(b)]).norm());
-    return least;
-}
-
-/// Corresponding nodes of two faces with the same quad connectivity coincide if their distance is less than
-/// this share of the shortest side. No other pair of nodes is that close.
-constexpr double kNearImage = 0.25;
-
 /// Codes of errors whose remedy is to remesh a given face, or to load it without its mesh.
 constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surface.wall_not_rows",
                                                      "surface.kept_rim", "sweep.layers_given"};
@@ -88,33 +64,6 @@ struct MemberFailed : NotSweepable {
     MemberFailed(std::size_t which, Message why) : NotSweepable(std::move(why)), member(which) {}
     std::size_t member;
 };
-
-} // namespace
-
-void check_alike(std::span<const AssemblyMember> members)
-{
-    for (std::size_t m = 0; m < members.size(); ++m) {
-        if (members[m].region == "volume" && members.size() > 1)
-            throw InvalidInput(
-                Message("assembly.same_name",
-                        "a volume of the assembly is named \"volume\", the group name of all cells")
-                    .remedy("give it another name"));
-        const SweepOptions &first = members.front().options, &own = members[m].options;
-        if (own.order != first.order || own.second_order.serendipity != first.second_order.serendipity)
-            throw InvalidInput(
-                Message("assembly.order",
-                        "{} and {} are parts of one mesh and must have the same 'order' and 'serendipity'",
-                        members.front().region, members[m].region)
-                    .remedy("give both volumes the same values"));
-        for (std::size_t n = 0; n < m; ++n)
-            if (members[m].region == members[n].region)
-                throw InvalidInput(Message("assembly.same_name",
-                                           "two volumes of the assembly are named \"{}\"", members[m].region)
-                                       .remedy("give one of them another name"));
-    }
-}
-
-namespace {
 
 class Assembler {
 public:
@@ -140,7 +89,7 @@ public:
             sweep_again();
         }
         number_nodes(result_);
-        pair_nodes();
+        sweep::pair_nodes(images(), result_, context_);
         check_no_hanging_nodes(result_, members_);
         name_groups();
         log_defaults();
@@ -281,6 +230,8 @@ private:
         }
         return counts;
     }
+
+    [[nodiscard]] ImagesOf images() const { return {members_, periodic_, grid_}; }
 
     void plan()
     {
@@ -438,147 +389,14 @@ private:
         const bool keeps = options.quads == Quads::automatic || options.quads == Quads::keep;
         std::set<FaceId> fixed = options.beside.handed; // faces whose nodes are given or copied
         for (const Neighbour& n : handed) fixed.insert(n.own);
-        if (keeps) give_to_images(m, volume, fixed);
+        if (keeps) give_to_images(images(), m, volume, fixed);
         options.beside.settle = [&](const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) {
-            return tie_images(m, fixed, skin, faces);
+            return tie_images(images(), m, fixed, skin, faces);
         };
         // The reference shape is the sealed volume without the nodes planned on edges. Of the neighbours'
         // quads it has only those on void faces.
         if (!plan_.nodes[m].empty() || !fixed.empty()) options.beside.shape = &sealed;
         result_.parts[m] = sweep(volume, options, context);
-    }
-
-    /// Copy the quads of a member's periodic faces to their images in the same member.
-    /// @param fixed  the faces with given quads are added to this set
-    void give_to_images(std::size_t m, OpenVolume& volume, std::set<FaceId>& fixed) const
-    {
-        for (const PeriodicFaces& pair : periodic_) {
-            for (const auto& [of, member] : {std::pair(pair.face_a, pair.a), std::pair(pair.face_b, pair.b)})
-                if (member == m && given_mesh(volume.model, of)) fixed.insert(of);
-            if (pair.a != m || pair.b != m || fixed.contains(pair.face_a) == fixed.contains(pair.face_b))
-                continue;
-            const bool forth = fixed.contains(pair.face_a);
-            const auto [from, to] = forth ? std::pair(pair.face_a, pair.face_b)
-                                          : std::pair(pair.face_b, pair.face_a);
-            const Eigen::Isometry3d onto = forth ? pair.onto : pair.onto.inverse();
-            std::optional<FaceMesh> mesh = given_mesh(volume.model, from);
-            if (!mesh) continue;
-            for (Vec3& p : mesh->places) p = onto * p;
-            give_mesh(volume, to, mesh->places, mesh->quads);
-            fixed.insert(to);
-        }
-    }
-
-    /// Make the nodes of a member's periodic faces exact images of each other. If the motion is a
-    /// translation, nodes are also rounded to the grid: their images in other members are then bit-identical.
-    [[nodiscard]] SettledNodes tie_images(std::size_t m, const std::set<FaceId>& fixed,
-                                          const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) const
-    {
-        SettledNodes settled;
-        const double tolerance = members_[m].volume->model.tolerance;
-        std::map<Index, std::size_t> number;
-        std::vector<Index> nodes;
-        std::vector<Vec3> places;
-        std::vector<char> is_fixed;
-        std::vector<Tie> ties;
-        const auto add = [&](Index node) {
-            const auto [found, fresh] = number.try_emplace(node, nodes.size());
-            if (fresh) nodes.push_back(node), places.push_back(skin[node]), is_fixed.push_back(0);
-            return found->second;
-        };
-        const Eigen::Isometry3d itself = Eigen::Isometry3d::Identity();
-        for (const PeriodicFaces& pair : periodic_) {
-            for (const auto& [of, member] :
-                 {std::pair(pair.face_a, pair.a), std::pair(pair.face_b, pair.b)}) {
-                if (member != m) continue;
-                settled.faces.insert(of);
-                for (const Quad& quad : quads_on(skin.mesh, faces, of))
-                    for (const Index node : quad) {
-                        const std::size_t n = add(node);
-                        if (fixed.contains(of)) is_fixed[n] = 1;
-                        if (is_translation(pair.onto)) ties.push_back({n, n, &itself});
-                    }
-            }
-            if (pair.a != m || pair.b != m) continue;
-            FaceMesh from = face_mesh(skin, quads_on(skin.mesh, faces, pair.face_a));
-            const FaceMesh to = face_mesh(skin, quads_on(skin.mesh, faces, pair.face_b));
-            for (Vec3& p : from.places) p = pair.onto * p;
-            const bool both = fixed.contains(pair.face_a) && fixed.contains(pair.face_b);
-            const auto same = same_quads(
-                from, to, both ? tolerance : kNearImage * std::min(shortest_side(from), shortest_side(to)));
-            if (!same) refuse_images(pair, both);
-            for (const NodePair& nodes_of : *same)
-                ties.push_back({add(nodes_of.own), add(nodes_of.other), &pair.onto});
-        }
-        tie_points(places, is_fixed, ties, grid_);
-        for (std::size_t n = 0; n < nodes.size(); ++n) settled.nodes.emplace_back(nodes[n], places[n]);
-        return settled;
-    }
-    [[noreturn]] void refuse_images(const PeriodicFaces& pair, bool given) const
-    {
-        const NamedEntity a = entity_in(members_[pair.a], pair.face_a),
-                          b = entity_in(members_[pair.b], pair.face_b);
-        if (given)
-            throw InvalidInput(Message("sweep.periodic_given",
-                                       "periodic: the given meshes of {} and {} differ, and given nodes do "
-                                       "not move",
-                                       a, b)
-                                   .remedy("load one of them with keep_mesh = false"));
-        throw NotSweepable(
-            Message("sweep.periodic_unlike", "periodic: the quads on {} and {} are not connected alike", a, b)
-                .remedy("make both of them walls, or source and target, or use quads = "
-                        "\"mapped\""));
-    }
-
-    /// List the nodes of periodic faces in pairs, and make middle nodes equal.
-    void pair_nodes()
-    {
-        for (const PeriodicFaces& pair : periodic_) {
-            if (result_.periodic.size() <= pair.pair) result_.periodic.resize(pair.pair + 1);
-            mesh::PeriodicNodes& found = result_.periodic[pair.pair];
-            found.onto = pair.onto;
-            const std::vector<Index> from = nodes_on(pair.a, pair.face_a), to = nodes_on(pair.b, pair.face_b);
-            Swept &part_a = result_.parts[pair.a], &part_b = result_.parts[pair.b];
-            std::vector<Vec3> moved, places;
-            for (const Index n : from) moved.push_back(pair.onto * part_a.skin()[n]);
-            for (const Index n : to) places.push_back(part_b.skin()[n]);
-            const FaceMesh corners = face_mesh(part_a.skin(), quads_of(pair.a, pair.face_a));
-            // The allowed distance is not zero: nodes given for the two faces may differ by the tolerance,
-            // and middle nodes by the sag of the facets.
-            const std::vector<Index> twin = same_places(moved, places,
-                                                        kNearImage / 4 * shortest_side(corners));
-            if (twin.empty()) refuse_images(pair, false);
-            bool changed = false;
-            for (std::size_t n = 0; n < from.size(); ++n) {
-                const Index other = to[index(twin[n])];
-                found.pairs.push_back(
-                    {result_.numbering[pair.a].of(from[n]), result_.numbering[pair.b].of(other)});
-                const std::size_t corner_count = mesh::corner_count(part_b.mesh);
-                if (index(other) < corner_count || part_b.skin()[other] == moved[n]) continue;
-                part_b.mesh.middles.nodes[index(other) - corner_count] = moved[n];
-                changed = true;
-            }
-            std::ranges::sort(found.pairs);
-            const auto again = std::ranges::unique(found.pairs);
-            found.pairs.erase(again.begin(), again.end());
-            if (changed)
-                quality::require(
-                    quality::prove(part_b.mesh, members_[pair.b].options.min_scaled_jacobian, context_));
-        }
-        for (const mesh::PeriodicNodes& pair : result_.periodic)
-            result_.report.push_back(formatted("periodic: {} pairs of nodes", pair.pairs.size()));
-    }
-    /// All nodes of a part on a face, including middle nodes.
-    [[nodiscard]] std::vector<Index> nodes_on(std::size_t m, FaceId face) const
-    {
-        const Swept& part = result_.parts[m];
-        std::set<Index> nodes;
-        for (std::size_t i = 0; i < part.mesh.skin_count(); ++i)
-            if (part.faces[index(mesh::skin_quad(part.mesh, i).patch)] == face) {
-                const mesh::CellNodes own = mesh::skin_nodes(part.mesh, i);
-                nodes.insert(own.all().begin(), own.all().end());
-            }
-        return {nodes.begin(), nodes.end()};
     }
 
     /// Make the options look up a middle node in the members meshed so far and, if they have none, in the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/assembly_levels.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -16,11 +17,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// Two levels count as one if their distance is below this share of the height of the tallest member of the
-/// group. A layer boundary can bend to reach both, whereas a layer between them would be very thin. Not
-/// measured.
-constexpr double kSameLevel = 1e-2;
 
 /// Whether the layers of a member are free: neither the user nor a given mesh prescribes them.
 bool has_free_layers(const AssemblyMember& member)
@@ -47,12 +43,12 @@ std::optional<Span> span_of(const Model& model, FaceId wall, const std::map<Edge
     if (edges.empty()) return std::nullopt;
     const auto [low, high] = std::ranges::minmax_element(edges);
     Span span{low->first, high->first};
-    if (span.high - span.low < kSameLevel) return std::nullopt;
+    if (span.high - span.low < kAlikeSizes) return std::nullopt;
     const auto mean = [&](double height) {
         Vec3 sum = Vec3::Zero();
         double whole = 0;
         for (const auto& [at, edge] : edges) {
-            if (std::abs(at - height) >= kSameLevel) continue;
+            if (std::abs(at - height) >= kAlikeSizes) continue;
             const std::vector<Vec3> line = surface::edge_line(model, edge);
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {
                 const double length = (line[i + 1] - line[i]).norm();
@@ -74,7 +70,7 @@ AssemblyLevels::AssemblyLevels(std::span<const AssemblyMember> members, std::spa
       shared_(shared),
       height_(members.size()),
       length_(members.size(), 0),
-      same_(members.size(), kSameLevel),
+      same_(members.size(), kAlikeSizes),
       levels_(members.size(), {0, 1})
 {
 }
@@ -157,7 +153,9 @@ std::vector<std::vector<double>> AssemblyLevels::heights(
     for (std::size_t m = 0; m < members_.size(); ++m)
         tallest[groups.find(m)] = std::max(tallest[groups.find(m)], length_[m]);
     for (std::size_t m = 0; m < members_.size(); ++m) {
-        if (length_[m] > 0) same_[m] = kSameLevel * tallest.at(groups.find(m)) / length_[m];
+        // Levels count as one if they are alike on the scale of the tallest member of the group. A layer
+        // boundary can bend to reach both, whereas a layer between them would be very thin.
+        if (length_[m] > 0) same_[m] = kAlikeSizes * tallest.at(groups.find(m)) / length_[m];
         for (const auto& [edge, height] : height_[m]) add_level(m, height);
     }
     exchange(all);

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/assembly_order.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
@@ -129,10 +130,9 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
     const auto all_placed = [&](const std::set<std::size_t>& others) {
         return std::ranges::all_of(others, [&](std::size_t other) { return placed[other] != 0; });
     };
-    constexpr std::size_t kMustWait = 10;
     using Step = std::tuple<std::size_t, std::size_t, std::size_t>; // the step, the place in it, the member
     const auto step_of = [&](std::size_t m) -> Step {
-        if (!all_placed(before[m])) return {kMustWait, m, m};
+        if (!all_placed(before[m])) return {kNoIndex, m, m};
         if (members[m].fixed != nullptr) return {1, m, m};
         if (const auto at = std::ranges::find(first, m); at != first.end())
             return {2, static_cast<std::size_t>(at - first.begin()), m};
@@ -147,7 +147,7 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
     std::vector<Step> steps;
     for (std::size_t m = 0; m < count; ++m) to_come.insert(steps.emplace_back(step_of(m)));
     std::vector<std::size_t> order;
-    while (!to_come.empty() && std::get<0>(*to_come.begin()) < kMustWait) {
+    while (!to_come.empty() && std::get<0>(*to_come.begin()) < kNoIndex) {
         const std::size_t next = std::get<2>(*to_come.begin());
         to_come.erase(to_come.begin());
         placed[next] = 1;

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/carry_lines.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/default_size.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -24,10 +25,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// Maximum number of rounds. In each round, every volume copies lines from one end to the other, so lines can
-/// pass through a stack of this many volumes.
-constexpr int kRounds = 64;
 
 /// Copies the parts of a split face to a volume in which the face is still whole.
 class FaceCopier {
@@ -259,14 +256,16 @@ public:
     {
         share_vertices();
         bool changed = true;
+        // In each round, every volume copies lines from one end to the other, so lines can pass through a
+        // stack of as many volumes as there are rounds.
         for (int round = 0; changed; ++round) {
-            if (round == kRounds)
+            if (round == kMostRounds)
                 throw NotSweepable(
                     Message("sweep.lines_go_round",
                             "the lines inside the ends of these volumes cannot be imprinted on "
                             "their neighbours: after {} rounds, every line still requires "
                             "another line",
-                            kRounds)
+                            kMostRounds)
                         .remedy("divide the volumes so that neighbours share whole faces"));
             changed = false;
             for (std::size_t m = 0; m < volumes_.size(); ++m) {

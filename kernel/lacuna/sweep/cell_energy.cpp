@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/vector_code.h>
+#include <lacuna/geometry/shared/foldover.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <algorithm>
@@ -13,8 +14,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Weight of the volume term against the shape term, from Garanzha et al. (2021).
-constexpr double kVolumeShare = 1.0 / 128;
+using geometry::kSizeShare;
 
 /// Ends of the four edges along each of u, v, w.
 constexpr std::array<std::array<std::array<std::size_t, 2>, 4>, 3> kEdges{{
@@ -89,12 +89,12 @@ public:
         const Four shape =
             (squares[0] * by_square[0] + squares[1] * by_square[1] + squares[2] * by_square[2]) * power;
         const Four spread = (1 + determinant * determinant) / chi;
-        value_ = energy.shape * ((1 - kVolumeShare) * shape + kVolumeShare * spread);
+        value_ = energy.shape * ((1 - kSizeShare) * shape + kSizeShare * spread);
         Four by_det = energy.shape *
-                      ((1 - kVolumeShare) * (-2.0 / 3) * shape / chi * chi_slope +
-                       kVolumeShare * (2 * determinant - spread * chi_slope) / chi) /
+                      ((1 - kSizeShare) * (-2.0 / 3) * shape / chi * chi_slope +
+                       kSizeShare * (2 * determinant - spread * chi_slope) / chi) /
                       volume;
-        const Four by_squares = 2 * energy.shape * ((1 - kVolumeShare) * power);
+        const Four by_squares = 2 * energy.shape * ((1 - kSizeShare) * power);
         Vector by_edge{by_squares * by_square[0], by_squares * by_square[1], by_squares * by_square[2]};
         if (energy.sharpness > 0) add_sharpness(energy.sharpness, best, det, squares, by_det, by_edge);
         for (int c = 0; c < 3; ++c) {

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/cell_region.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/quality.h>
 
@@ -12,9 +13,6 @@
 namespace lacuna::sweep {
 
 namespace {
-
-/// Cells per task: enough to make a thread worthwhile. Sums are added chunk by chunk, in order.
-constexpr std::size_t kChunk = 512;
 
 std::array<Vec3, 8> corners_of(const std::vector<Vec3>& places, const Hex& hex)
 {
@@ -98,23 +96,19 @@ double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::v
     return bound;
 }
 
-/// A cell whose quality is this close to its upper bound is skipped: the possible gain does not justify the
-/// work.
-constexpr double kLeastRoom = 0.01;
-
 /// Whether each cell is poor and can be improved.
 std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>& locked, double good_enough,
                              const RunContext& context)
 {
     std::vector<char> poor(mesh.cell_count(), 0);
-    parallel_each(context, poor.size(), kChunk, [&](std::size_t c) {
+    parallel_each(context, poor.size(), kPerTask, [&](std::size_t c) {
         const Hex hex = mesh.hex(c);
         const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
         const double scaled = scaled_jacobian(hex, corners);
         if (scaled >= good_enough) {
             poor[c] = certified_positive(hex, corners) ? 0 : 1;
         } else {
-            poor[c] = scaled <= 0 || scaled + kLeastRoom < bound_of(corners, hex, locked) ? 1 : 0;
+            poor[c] = scaled <= 0 || scaled + kSameQuality < bound_of(corners, hex, locked) ? 1 : 0;
         }
     });
     return poor;
@@ -213,7 +207,7 @@ CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options,
         region.cells.push_back(local);
         const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
         region.box.push_back(mean_edges(corners, kind_of(hex)));
-        region.aim.push_back(std::min(options.good_enough, bound_of(corners, hex, held) - kLeastRoom));
+        region.aim.push_back(std::min(options.good_enough, bound_of(corners, hex, held) - kSameQuality));
     }
     region.uses = uses_of(region);
     return region;
@@ -221,10 +215,10 @@ CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options,
 
 RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places, const RunContext& context)
 {
-    const std::size_t chunks = (region.cells.size() + kChunk - 1) / kChunk;
+    const std::size_t chunks = (region.cells.size() + kPerTask - 1) / kPerTask;
     std::vector<RegionQuality> part(chunks);
-    parallel_for(context, region.cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-        RegionQuality& found = part[begin / kChunk];
+    parallel_for(context, region.cells.size(), kPerTask, [&](std::size_t begin, std::size_t end) {
+        RegionQuality& found = part[begin / kPerTask];
         found.mean = 0;
         for (std::size_t c = begin; c < end; ++c) {
             const std::array<Vec3, 8> corners = corners_of(places, region.cells[c]);
@@ -259,19 +253,19 @@ void RegionEnergy::put(const Eigen::VectorXd& x)
 double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
 {
     put(x);
-    std::vector<double> part((region_.cells.size() + kChunk - 1) / kChunk, 0.0);
-    parallel_for(context_, region_.cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> part((region_.cells.size() + kPerTask - 1) / kPerTask, 0.0);
+    parallel_for(context_, region_.cells.size(), kPerTask, [&](std::size_t begin, std::size_t end) {
         std::array<Vec3, 8> slope;
         for (std::size_t c = begin; c < end; ++c) {
             const Hex& cell = region_.cells[c];
-            part[begin / kChunk] += cell_energy(energy, corners_of(places_, cell), region_.box[c], slope,
-                                                kind_of(cell));
+            part[begin / kPerTask] += cell_energy(energy, corners_of(places_, cell), region_.box[c], slope,
+                                                  kind_of(cell));
             std::copy(slope.begin(), slope.end(), slopes_.begin() + static_cast<std::ptrdiff_t>(8 * c));
         }
     });
     // Summing the gradients at a node is much cheaper than evaluating a cell, so threads pay off only from 32
     // times as many nodes on.
-    parallel_each(context_, region_.free, 32 * kChunk, [&](std::size_t i) {
+    parallel_each(context_, region_.free, 32 * kPerTask, [&](std::size_t i) {
         Vec3 sum = Vec3::Zero();
         for (const Index use : region_.uses.of(i)) sum += slopes_[index(use)];
         sum -= normal_[i] * normal_[i].dot(sum);
@@ -286,7 +280,7 @@ double RegionEnergy::least_determinant(const Eigen::VectorXd& x)
 {
     put(x);
     return parallel_min(
-        context_, region_.cells.size(), kChunk, kInfinity, [&](std::size_t begin, std::size_t end) {
+        context_, region_.cells.size(), kPerTask, kInfinity, [&](std::size_t begin, std::size_t end) {
             double least = kInfinity;
             for (std::size_t c = begin; c < end; ++c) {
                 const Hex& cell = region_.cells[c];

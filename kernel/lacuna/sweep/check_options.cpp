@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <cmath>
@@ -158,6 +159,29 @@ void check(const SweepOptions& options, const RunContext& context)
     }
     check(options.improving);
     check(options.layers);
+}
+
+void check_alike(std::span<const AssemblyMember> members)
+{
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        if (members[m].region == "volume" && members.size() > 1)
+            throw InvalidInput(
+                Message("assembly.same_name",
+                        "a volume of the assembly is named \"volume\", the group name of all cells")
+                    .remedy("give it another name"));
+        const SweepOptions &first = members.front().options, &own = members[m].options;
+        if (own.order != first.order || own.second_order.serendipity != first.second_order.serendipity)
+            throw InvalidInput(
+                Message("assembly.order",
+                        "{} and {} are parts of one mesh and must have the same 'order' and 'serendipity'",
+                        members.front().region, members[m].region)
+                    .remedy("give both volumes the same values"));
+        for (std::size_t n = 0; n < m; ++n)
+            if (members[m].region == members[n].region)
+                throw InvalidInput(Message("assembly.same_name",
+                                           "two volumes of the assembly are named \"{}\"", members[m].region)
+                                       .remedy("give one of them another name"));
+    }
 }
 
 } // namespace lacuna::sweep

@@ -8,30 +8,21 @@
 #include <lacuna/sweep/detail/compare_face.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/tips.h>
 #include <lacuna/mesh/shared/incidence.h>
 #include <lacuna/sweep/detail/facet_walk.h>
-#include <lacuna/sweep/detail/middle_skin.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <utility>
 
 namespace lacuna::sweep {
 
 namespace {
-
-/// Quads, facets or points per block. Each block has its own sums. Smaller blocks add overhead, and larger
-/// blocks leave threads idle. Not measured.
-constexpr std::size_t kBlock = 1024;
-/// If a point is farther from the nearby quads than this share of a quad's side, a tree is searched for its
-/// distance, because another part of the skin may be nearer. A lower value searches the tree more often. Not
-/// measured.
-constexpr double kFar = 0.25;
 
 /// A point of one skin and its distance from the other.
 struct Sample {
@@ -160,7 +151,7 @@ private:
         }
         return in_blocks(first.size(), [&](std::size_t i, Tally& tally) {
             const auto [n, q] = first[i];
-            const Index hint = i % kBlock == 0 ? -1 : facet_of_node_[index(first[i - 1].first)];
+            const Index hint = i % kPerTask == 0 ? -1 : facet_of_node_[index(first[i - 1].first)];
             facet_of_node_[index(n)] = add_compared(walk, hint, Vec3::Zero(),
                                                     {node(n), 0, side_[index(q)], index(q)}, tally);
         });
@@ -195,7 +186,7 @@ private:
     {
         std::size_t facet = 0;
         const auto foot = walk.over(sample.point, hint);
-        if (foot && foot->nearest && std::abs(foot->height) < kFar * sample.side) {
+        if (foot && foot->nearest && std::abs(foot->height) < kShareOfSide * sample.side) {
             facet = index(foot->facet);
             const Vec3 bulge = shape_.bulge_at(facet, foot->barycentric);
             sample.distance = std::abs(foot->height - walk.normal(foot->facet).dot(bulge));
@@ -205,10 +196,8 @@ private:
         }
         // If the point is far from the face, as on a long quad in a bend, the nearest facet may belong to an
         // opposite part of the face. The orientation of that facet then proves nothing, so it is not checked.
-        // A higher factor checks more of such points. Not measured.
-        constexpr double kNear = 0.1; // share of the quad's width
         const auto found = static_cast<Index>(facet);
-        sample.turned = limit_.folds && sample.distance * sample.side < kNear * across.norm() &&
+        sample.turned = limit_.folds && sample.distance * sample.side < kShareOfSide * across.norm() &&
                         sign_ * across.dot(walk.normal(found)) < 0;
         tally.add(sample, allowed(sample));
         return found;
@@ -257,7 +246,7 @@ private:
                 if (facet_at[index(p)] < 0) facet_at[index(p)] = static_cast<Index>(i);
             }
         }
-        std::vector<std::vector<Left>> left((walk.size() + kBlock - 1) / kBlock);
+        std::vector<std::vector<Left>> left((walk.size() + kPerTask - 1) / kPerTask);
         take(in_blocks(walk.size(), [&](std::size_t i, Tally& tally) {
             const Triangle& t = shape_.triangles[i];
             const std::array<Vec3, 3> c{shape_.points[index(t[0])], shape_.points[index(t[1])],
@@ -268,7 +257,7 @@ private:
                 if (sample)
                     tally.add(*sample, allowed(*sample));
                 else
-                    left[i / kBlock].push_back({point, area});
+                    left[i / kPerTask].push_back({point, area});
             };
             for (std::size_t k = 0; k < 3; ++k) {
                 if (facet_at[index(t[k])] == static_cast<Index>(i)) compare(c[k], 0);
@@ -317,13 +306,11 @@ private:
         return near;
     }
 
-    /// The quad of a list that is nearest to a point. At most `kMost` quads, at even steps of the list, are
-    /// compared.
+    /// The quad of a list that is nearest to a point. At most `kFineChords` quads, at even steps of the list,
+    /// are compared.
     [[nodiscard]] std::size_t nearest_of(std::span<const Index> quads, const Vec3& point) const
     {
-        // Maximum number of quads that are compared, to bound the time per point. Not measured.
-        constexpr std::size_t kMost = 16;
-        const std::size_t step = (quads.size() + kMost - 1) / kMost;
+        const std::size_t step = (quads.size() + kFineChords - 1) / kFineChords;
         double best = kInfinity;
         Index nearest = quads.front();
         for (std::size_t i = 0; i < quads.size(); i += step) {
@@ -358,7 +345,7 @@ private:
             }
         }
         const Sample sample{point, area, side_[quad], quad, std::sqrt(best)};
-        if (sample.distance > kFar * sample.side) return std::nullopt;
+        if (sample.distance > kShareOfSide * sample.side) return std::nullopt;
         return sample;
     }
 
@@ -366,8 +353,7 @@ private:
     [[nodiscard]] std::size_t walk_across(const mesh::Incidence& round, const Vec3& point,
                                           std::size_t quad) const
     {
-        constexpr int kMostSteps = 64; // limit on a walk, to bound the time. Not measured
-        for (int step = 0; step < kMostSteps; ++step) {
+        for (int step = 0; step < kMostRounds; ++step) {
             const Quad& q = quads_[quad];
             const std::array<Vec3, 4> c = corners(quad);
             const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]);
@@ -458,9 +444,9 @@ private:
     template <class Body>
     Tally in_blocks(std::size_t count, const Body& body) const
     {
-        std::vector<Tally> tallies((count + kBlock - 1) / kBlock);
-        parallel_for(context_, count, kBlock, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) body(i, tallies[i / kBlock]);
+        std::vector<Tally> tallies((count + kPerTask - 1) / kPerTask);
+        parallel_for(context_, count, kPerTask, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) body(i, tallies[i / kPerTask]);
         });
         Tally all;
         for (const Tally& tally : tallies) all.add(tally);
@@ -470,10 +456,8 @@ private:
     /// Allowed distance of a sample. It is larger around a tip.
     [[nodiscard]] double allowed(const Sample& sample) const
     {
-        constexpr double kReach =
-            2; // sides from the tip; a higher value relaxes the check in a larger area. Not measured
         const bool at_tip = limit_.length == 0 && std::ranges::any_of(tips_, [&](const Vec3& tip) {
-                                return (sample.point - tip).norm() < kReach * sample.side;
+                                return (sample.point - tip).norm() < 2 * limit_.at_tip * sample.side;
                             });
         const double share = at_tip ? limit_.at_tip : limit_.share;
         return (limit_.length > 0 ? limit_.length : std::max(share * sample.side, limit_.least)) +
@@ -549,117 +533,7 @@ private:
     std::size_t worst_ = 0;
 };
 
-void set_mean_sides(Skin& skin)
-{
-    for (SkinOfFace& face : skin.faces)
-        for (const double side : face.side) face.mean_side += side / static_cast<double>(face.side.size());
-}
-
-/// The quads of a mesh's skin by face.
-/// @param points   the nodes of the skin
-/// @param quads    number of quads of the skin that precede its first triangle, if the mesh is of order 2
-/// @param at       returns the index in `points` of a node of the mesh
-/// @param whole    whether, at order 2, the allowed distance at half a side follows the whole side's length
-template <class Mesh, class At>
-Skin skin_of(const Mesh& mesh, std::vector<Vec3> points, std::size_t quads, const At& at, bool whole,
-             const std::vector<FaceId>& faces, std::size_t face_count, const RunContext& context)
-{
-    Skin skin{std::move(points), std::vector<SkinOfFace>(face_count)};
-    for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    const bool curved = mesh.order() > 1;
-    // Append the centres of quads that are not nodes of the mesh.
-    const std::size_t known = skin.points.size();
-    if (curved && !mesh.middles.full) skin.points.resize(known + quads);
-    struct Numbered {
-        Quad nodes{};
-        double side = 0; ///< the longest
-    };
-    const std::size_t parts = curved ? 4 : 1;
-    std::vector<Numbered> all(parts * mesh.skin_count());
-    parallel_each(context, mesh.skin_count(), kBlock, [&](std::size_t i) {
-        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
-        const std::size_t count = mesh::corner_count(mesh::skin_quad(mesh, i).nodes);
-        std::array<Index, 9> own{};
-        for (std::size_t k = 0; k < std::max<std::size_t>(nodes.count, 4); ++k) own[k] = at(nodes.node[k]);
-        const auto middle = [&](std::size_t k) { return own[count + k % count]; };
-        if (count == 4 && nodes.count == 8) {
-            std::array<Vec3, 4> sides, corners;
-            for (std::size_t k = 0; k < 4; ++k) {
-                corners[k] = skin.points[index(own[k])];
-                sides[k] = skin.points[index(middle(k))];
-            }
-            own[8] = static_cast<Index>(known + i);
-            skin.points[known + i] = middle_of_quad(sides, corners);
-        }
-        const auto longest = [&](const Quad& quad) {
-            double squared = 0;
-            for (std::size_t k = 0; k < 4; ++k)
-                squared = std::max(
-                    squared,
-                    (skin.points[index(quad[(k + 1) % 4])] - skin.points[index(quad[k])]).squaredNorm());
-            return std::sqrt(squared);
-        };
-        const Quad corners{own[0], own[1], own[2], own[count == 4 ? 3 : 2]};
-        for (std::size_t j = 0; j < parts; ++j) {
-            Quad part = corners;
-            if (curved && j < count) {
-                const Index before = middle(j + count - 1);
-                part = {own[j], middle(j), count == 4 ? own[8] : before, before};
-            } else if (curved) {
-                part = {middle(0), middle(1), middle(2), middle(2)};
-            }
-            all[parts * i + j] = {part, longest(whole ? corners : part)};
-        }
-    });
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        SkinOfFace& face = skin.faces[faces[index(mesh::skin_quad(mesh, i / parts).patch)].index()];
-        face.quads.push_back(all[i].nodes);
-        face.side.push_back(all[i].side);
-        face.item.push_back(i / parts);
-    }
-    set_mean_sides(skin);
-    return skin;
-}
-
 } // namespace
-
-Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std::size_t face_count,
-             const RunContext& context)
-{
-    const mesh::HexMesh& mesh = nodes.mesh;
-    // Number the nodes of the first and the last layer and the rim nodes in between, in the mesh's order, and
-    // then the middle nodes.
-    std::vector<Index> known;
-    const Index row = mesh.nodes_per_layer;
-    std::set<Index> rim;
-    for (const Segment& side : mesh.rim) rim.insert(side.begin(), side.end());
-    for (Index n = 0; n < row; ++n) known.push_back(n);
-    for (Index layer = 1; layer < mesh.layers; ++layer) {
-        for (const Index n : rim) known.push_back(layer * row + n);
-    }
-    for (Index n = 0; n < row; ++n) known.push_back(mesh.layers * row + n);
-    const auto corners = static_cast<std::ptrdiff_t>(known.size());
-    for (std::size_t i = 0; mesh.order() > 1 && i < mesh.skin_count(); ++i) {
-        const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
-        known.insert(known.end(), quad.begin() + 4, quad.end());
-    }
-    std::sort(known.begin() + corners, known.end());
-    known.erase(std::unique(known.begin() + corners, known.end()), known.end());
-    std::vector<Vec3> points(known.size());
-    parallel_each(context, known.size(), kBlock, [&](std::size_t i) { points[i] = nodes[known[i]]; });
-    const auto at = [&](Index node) {
-        return static_cast<Index>(std::ranges::lower_bound(known, node) - known.begin());
-    };
-    return skin_of(mesh, std::move(points), mesh.skin_count(), at, false, faces, face_count, context);
-}
-
-Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::size_t face_count)
-{
-    std::vector<Vec3> points = mesh.nodes;
-    points.insert(points.end(), mesh.middles.nodes.begin(), mesh.middles.nodes.end());
-    return skin_of(mesh, std::move(points), mesh.skin_quads, [](Index node) { return node; }, true, faces,
-                   face_count, {});
-}
 
 FaceFidelity compare_face(const mesh::HexMesh* mesh, const Skin& skin, const SkinOfFace& quads,
                           surface::FaceShape shape, double sign, const DeviationLimit& limit,

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/default_size.h>
 #include <lacuna/surface/shared/linking_surface.h>
@@ -29,15 +30,6 @@ using namespace topology;
 
 namespace {
 
-/// Tolerance for shares of an edge's length. An interval request does not apply to an edge of which it covers
-/// less than this share. Sides whose lengths differ by less count as equally long.
-constexpr double kInset = 1e-3;
-/// Number of places along an edge at which the size is sampled. Heuristic.
-constexpr std::size_t kSizeSamples = 128;
-/// Maximum number of rounds that make the number of sides of ends even. Each round adds a side to one class;
-/// assemblies of blocks need far fewer.
-constexpr int kRounds = 64;
-
 /// Whether rows of boundary layers have the same heights.
 bool are_alike(const std::vector<double>& a, const std::vector<double>& b)
 {
@@ -58,7 +50,7 @@ std::vector<double> spread_between(const std::vector<double>& ends, std::size_t 
     for (std::size_t k = parts.size(); k < count; ++k) {
         std::size_t longest = 0;
         for (std::size_t i = 1; i < parts.size(); ++i)
-            if (side(i) > side(longest) * (1 + kInset)) longest = i;
+            if (side(i) > side(longest) * (1 + kVisible)) longest = i;
         ++parts[longest];
     }
     std::vector<double> at{0};
@@ -148,7 +140,7 @@ void EdgeCounts::join_by_sweep(std::size_t m)
             const EdgeId from = link.source.uses()[segment.use].edge;
             // A segment may cover several edges of the target.
             const double whole = link.target.length();
-            const double inset = kInset * (segment.target_to - segment.target_from);
+            const double inset = kVisible * (segment.target_to - segment.target_from);
             const auto use_at = [&](double at) {
                 while (at >= whole) at -= whole;
                 return link.target.position(at).use;
@@ -324,7 +316,7 @@ void EdgeCounts::ask_sides()
                 edges.back().length += (part.to - part.from) * edges_[edges_.number(m, part.edge)].length;
             }
             const bool whole = std::ranges::all_of(
-                edges, [](const EdgeAsked& edge) { return edge.covered > 1 - kInset; });
+                edges, [](const EdgeAsked& edge) { return edge.covered > 1 - kVisible; });
             if (whole && static_cast<std::size_t>(asked.count) >= edges.size()) ask_sides(m, asked, edges);
         }
     }
@@ -424,7 +416,7 @@ void EdgeCounts::count()
     find_dense();
     std::map<std::size_t, double> most;
     for (const auto& [of, dense] : dense_)
-        most[of] = std::accumulate(dense.begin(), dense.end(), 0.0) / kSizeSamples;
+        most[of] = std::accumulate(dense.begin(), dense.end(), 0.0) / kFineChords;
     for (std::size_t e = 0; e < edges_.size(); ++e) {
         const std::size_t of = class_of(e);
         double& sides = most[of];
@@ -467,7 +459,7 @@ void EdgeCounts::count()
 
 void EdgeCounts::make_even()
 {
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kMostRounds; ++round) {
         bool odd = false;
         for (std::size_t m = 0; m < edges_.members().size(); ++m) {
             for (std::size_t f = 0; f < edges_.model(m).faces.size(); ++f) {
@@ -507,7 +499,7 @@ bool EdgeCounts::make_even(std::size_t m, FaceId face, int round)
     }
     if (best == edges_.size()) return false;
     ++bumps_[best];
-    count_[best] += round < kRounds / 2 ? 1 : count_[best] % 2;
+    count_[best] += round < kMostRounds / 2 ? 1 : count_[best] % 2;
     return true;
 }
 
@@ -517,8 +509,7 @@ void EdgeCounts::find_dense()
     for (const auto& [m, sides] : sides_)
         for (const EdgeUse& side : sides) layered.insert(class_of(edges_.number(m, side.edge)));
     std::vector<double> at;
-    for (std::size_t i = 0; i < kSizeSamples; ++i)
-        at.push_back((static_cast<double>(i) + 0.5) / kSizeSamples);
+    for (std::size_t i = 0; i < kFineChords; ++i) at.push_back((static_cast<double>(i) + 0.5) / kFineChords);
     for (std::size_t m = 0; m < edges_.members().size(); ++m) {
         const AssemblyMember& member = edges_.members()[m];
         if (member.fixed != nullptr) continue;
@@ -535,10 +526,10 @@ void EdgeCounts::find_dense()
                     const std::size_t e = edges_.number(m, use.edge);
                     if (layered.contains(class_of(e)) || edges_.kept(e) != SameEdges::Kept::no) continue;
                     std::vector<double>& dense = dense_[class_of(e)];
-                    dense.resize(kSizeSamples, 0);
+                    dense.resize(kFineChords, 0);
                     std::vector<Vec3> points = surface::edge_points(edges_.model(m), use.edge, at);
                     if (reversed_[e]) std::ranges::reverse(points);
-                    for (std::size_t i = 0; i < kSizeSamples; ++i)
+                    for (std::size_t i = 0; i < kFineChords; ++i)
                         dense[i] = std::max(dense[i], edges_[e].length / sizes.shape.at(points[i]));
                 }
     }
@@ -558,7 +549,7 @@ std::vector<double> EdgeCounts::spread(std::size_t e, int count) const
     for (int i = 0; i < count; ++i) {
         const double sum = sums.back() * i / count;
         while (sums[k + 1] < sum) ++k;
-        at.push_back((static_cast<double>(k) + (sum - sums[k]) / (*dense)[k]) / kSizeSamples);
+        at.push_back((static_cast<double>(k) + (sum - sums[k]) / (*dense)[k]) / kFineChords);
     }
     at.push_back(1);
     if (reversed_[e]) reverse_heights(at);

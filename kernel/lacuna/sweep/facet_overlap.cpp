@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/facet_overlap.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
@@ -18,8 +19,6 @@ namespace {
 /// adjacent, and neither covers the other. Coarse facets of a curved face differ from fine ones by about 30°.
 /// With a lower value, adjacent faces would count as overlapping. Not measured.
 constexpr double kOver = 0.5;
-/// Number of pairs of facets between two checks for cancellation.
-constexpr std::size_t kLook = 1 << 16;
 
 /// A polygon in a plane, with a height over the plane at each corner. Clipping a triangle by seven lines
 /// gives at most ten corners.
@@ -172,7 +171,7 @@ FaceOverlaps face_overlaps(const OpenVolume& a, std::span<const double> sag_a, c
     tree.overlaps(
         other_tree,
         [&](Index i, Index j) {
-            if (++looked % kLook == 0) check_cancelled(context);
+            if (++looked % kBetweenPolls == 0) check_cancelled(context);
             const FaceId f = own.face[index(i)], g = others.face[index(j)];
             const double limit = tolerance + sag_a[f.index()] + sag_b[g.index()];
             const Bounds bounds{limit, std::max(limit, window), kAround * std::max(limit, window)};

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/facet_walk.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/mesh/shared/incidence.h>
 
 #include <algorithm>
@@ -15,9 +16,6 @@ namespace {
 /// than the foot point, and their angles show whether they are. Above this height, facets folded by up to 90°
 /// are assumed. Not measured.
 constexpr double kLow = 0.1;
-/// Maximum number of steps of a walk. For points in rows, the next facet is one or two steps away. More steps
-/// would only help after large jumps, and there a tree is faster. Not measured.
-constexpr int kMostSteps = 32;
 
 } // namespace
 
@@ -86,7 +84,8 @@ void FacetWalk::set_frame(std::size_t facet, const std::array<Vec3, 3>& c)
 std::optional<FacetWalk::Foot> FacetWalk::over(const Vec3& point, Index start) const
 {
     Index before = -1, now = start;
-    for (int step = 0; step < kMostSteps && now >= 0; ++step) {
+    // For points in rows, the next facet is one or two steps away.
+    for (int step = 0; step < kMostRounds && now >= 0; ++step) {
         const Frame& frame = frame_[index(now)];
         if (frame.altitude[0] == 0) return std::nullopt;
         const Vec3 from = point - frame.corner;

@@ -7,6 +7,7 @@
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/surface/shared/face_shape.h>
 #include <lacuna/sweep/detail/compare_face.h>
+#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,6 @@ using namespace topology;
 
 namespace {
 
-/// Allowed distance as a share of a quad's side, if no length is given; see `FidelityOptions`.
-constexpr double kShareOfSide = 0.25;
 /// Allowed distance, as a share of a quad's side, on faces between two volumes, and within two sides of a
 /// tip, such as the apex of a cone. At most four quads meet at a tip.
 constexpr double kShareAtTip = 1;
@@ -99,8 +98,7 @@ Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
 {
     // The sag of a straight side is proportional to the square of its length. The ratio of sag and length is
     // proportional to the length.
-    constexpr double kBelow = 0.9;
-    const double share = kBelow * face.allowed / face.found;
+    const double share = kSuggestedShare * face.allowed / face.found;
     const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
     if (face.along_layers) {
         return std::move(message).remedy(

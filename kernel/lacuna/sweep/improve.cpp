@@ -2,7 +2,10 @@
 #include <lacuna/sweep/improve.h>
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/progress.h>
+#include <lacuna/geometry/shared/foldover.h>
 #include <lacuna/geometry/shared/minimise.h>
 #include <lacuna/sweep/detail/cell_region.h>
 
@@ -17,28 +20,11 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Smallest regularisation ε of the foldover-free energy, relative to the volume of a cell's reference box.
-/// It limits how flat cells may stay after untangling. A smaller value makes the minimisation
-/// ill-conditioned. Not measured.
-constexpr double kLeastEpsilon = 1e-3;
-/// Maximum number of untangling rounds, each with a smaller ε, and of consecutive rounds without gain. Both
-/// limit the time spent on cells that cannot be unfolded. Not measured.
-constexpr int kUntanglings = 40;
-constexpr int kPatience = 4;
-/// While untangling, a round also counts as a gain if `RegionQuality::lacking` decreases by more than this
-/// share.
-constexpr double kGain = 0.01;
 /// Exponent k in each round of the second stage. With low values all poor corners have weight, with high
 /// values only the worst ones.
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 /// Weight of the shape energy in the second stage: enough to keep lengths and to prevent folds.
 constexpr double kShapeShare = 1e-3;
-/// A result is better if the minimum scaled Jacobian rises by more than this. It is also better if the
-/// minimum does not fall and `RegionQuality::lacking` decreases by more than this share.
-constexpr double kWorthIt = 1e-4;
-/// Largest decrease of the mean scaled Jacobian that is accepted for a higher minimum; part of the contract
-/// of `improve()`.
-constexpr double kMeanGivenUp = 0.01;
 
 class Improver {
 public:
@@ -101,11 +87,12 @@ private:
         return std::chrono::duration<double>(now - *options_.spent->start).count() > options_.seconds;
     }
 
-    /// Whether a region is better than before; see `kWorthIt`.
+    /// Whether a region is visibly better than before: by its worst cell or, if that is as good, by
+    /// `RegionQuality::lacking`.
     static bool is_better(const RegionQuality& found, const RegionQuality& before)
     {
-        if (found.least > before.least + kWorthIt) return true;
-        return found.least >= before.least && found.lacking < before.lacking * (1 - kWorthIt);
+        if (found.least > before.least + kVisible) return true;
+        return found.least >= before.least && found.lacking < before.lacking * (1 - kVisible);
     }
 
     /// Run one minimisation, starting from `x`. Every iterate is judged after its sliding nodes are projected
@@ -177,18 +164,16 @@ private:
         energy_.energy = {};
         int without_gain = 0;
         double least_lacking = best_quality_.lacking;
-        for (int round = 0; round < kUntanglings && without_gain < kPatience && !out_of_time(); ++round) {
+        for (int round = 0; round < kMostRounds && without_gain < kIdleRounds && !out_of_time(); ++round) {
             const double determinant = energy_.least_determinant(x);
-            energy_.energy.epsilon = determinant > 0 ? kLeastEpsilon
-                                                     : std::sqrt(kLeastEpsilon * kLeastEpsilon +
-                                                                 0.04 * determinant * determinant);
+            energy_.energy.epsilon = geometry::epsilon_for(determinant);
             const double before = best_quality_.least;
             descend(x, -1);
             // The worst cell may be the last to unfold. Progress of the other cells therefore counts as a
             // gain too.
             const double lacking = measure(region_, places_at(x), context_).lacking;
-            const bool gain = best_quality_.least > before + kWorthIt ||
-                              lacking < least_lacking * (1 - kGain);
+            const bool gain = best_quality_.least > before + kVisible ||
+                              lacking < least_lacking * (1 - kSameQuality);
             least_lacking = std::min(least_lacking, lacking);
             without_gain = gain ? 0 : without_gain + 1;
             if (best_quality_.least > 0 && best_quality_.lacking <= 0) return;
@@ -198,11 +183,11 @@ private:
     void optimise(bool was_folded)
     {
         // If the mesh was folded, its mean quality may decrease.
-        const double floor = was_folded ? -1 : best_quality_.mean - kMeanGivenUp;
+        const double floor = was_folded ? -1 : best_quality_.mean - kSameQuality;
         Eigen::VectorXd x = variables(best_);
         for (const double sharpness : kSharpness) {
             if (out_of_time() || best_quality_.lacking <= 0) return;
-            energy_.energy = {kLeastEpsilon, kShapeShare, sharpness};
+            energy_.energy = {geometry::kLeastEpsilon, kShapeShare, sharpness};
             descend(x, floor);
             if (!(energy_.least_determinant(x) > 0)) x = variables(best_);
         }

@@ -3,9 +3,11 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
-#include <lacuna/sweep/detail/words.h>
+#include <lacuna/sweep/detail/thickness_report.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
@@ -20,12 +22,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// Maximum number of rounds of moves. Each round corrects errors that the previous round left where cells
-/// bend. In tests with tapered, twisted and bulging walls, no more were needed.
-constexpr int kMostCorrections = 8;
-/// A row has converged if its relative thickness error is below this: a tenth of the tolerance.
-constexpr double kMet = kThicknessOff / 10;
 
 /// The height that a node must have over one wall. A node where rows cross has two of these.
 struct Hold {
@@ -60,12 +56,16 @@ public:
         if (columns_.empty() && end_table_[0] < 0 && end_table_[1] < 0) return kept;
         kept.held.assign(nodes_.size(), 0);
         quads_at_ = mesh::quads_at_nodes(quads(), count_);
-        for (int round = 0; round < kMostCorrections && furthest_off() > kMet; ++round) {
+        // Each round corrects errors that the previous round left where cells bend.
+        for (int round = 0; round < kMostRounds && furthest_off() > kVisible; ++round) {
             check_cancelled(context_);
             move_layers();
             move_rows();
         }
-        for (std::size_t t = 0; t < tables_.heights.size(); ++t) report(static_cast<int>(t), kept.report);
+        for (std::size_t t = 0; t < tables_.heights.size(); ++t) {
+            const auto table = static_cast<int>(t);
+            report_thickness(model_, tables_, table, reached(table), kept.report);
+        }
         for (const auto& [node, row] : row_nodes_) {
             for (std::size_t k = 0; k <= layers_; ++k) kept.held[k * count_ + index(node)] = 1;
         }
@@ -202,34 +202,9 @@ private:
         return (at(to, node) - at(from, node)).dot(normal);
     }
 
-    struct Reached {
-        double asked = 0, least = kInfinity, most = 0;
-        double off = 0; ///< largest relative thickness error
-        double off_asked = 0, off_found = 0;
-        Vec3 where = Vec3::Zero();
-        FaceId face;
-
-        void add(double wanted, double found, const Vec3& place, FaceId on, bool first)
-        {
-            if (first) {
-                asked = wanted;
-                least = std::min(least, found);
-                most = std::max(most, found);
-            }
-            const double share = std::abs(found - wanted) / wanted;
-            if (!(share <= off)) {
-                off = share;
-                off_asked = wanted;
-                off_found = found;
-                where = place;
-                face = on;
-            }
-        }
-    };
-
-    [[nodiscard]] Reached reached(int table) const
+    [[nodiscard]] ReachedThickness reached(int table) const
     {
-        Reached reached;
+        ReachedThickness reached;
         const std::vector<double>& heights = heights_of(table);
         const auto wanted = [&](std::size_t j) { return heights[j] - (j > 0 ? heights[j - 1] : 0); };
         for (const RowColumn& column : columns_) {
@@ -261,29 +236,6 @@ private:
         for (std::size_t t = 0; t < tables_.heights.size(); ++t)
             off = std::max(off, reached(static_cast<int>(t)).off);
         return off;
-    }
-
-    void report(int table, std::vector<std::string>& lines) const
-    {
-        const Reached there = reached(table);
-        if (!there.face.valid() && there.asked == 0) return;
-        std::vector<FaceId> faces;
-        for (const auto& [face, own] : tables_.of)
-            if (own == table) faces.push_back(face);
-        const std::vector<double>& heights = heights_of(table);
-        if (there.off > kThicknessOff) {
-            throw NotSweepable(Message("sweep.layers_thickness",
-                                       "the boundary layers of {} are {:.2g} thick instead of {:.2g} near "
-                                       "{}: their nodes have no room to move, or are given",
-                                       entity_of(model_, there.face), found(there.off_found),
-                                       needed(there.off_asked), place_in_short(there.where))
-                                   .remedy("use fewer or thinner rows, or a smaller 'size'"));
-        }
-        lines.push_back(
-            formatted("boundary layers of {}: {} {}, the first {:.2g} to {:.2g} thick ({:.2g} asked), "
-                      "each within {:.2g} % of its thickness, {:.2g} in all",
-                      entities_of(model_, faces), heights.size(), heights.size() == 1 ? "row" : "rows",
-                      there.least, there.most, there.asked, 100 * there.off, heights.back()));
     }
 
     // --- moving rows along walls --------------------------------------------------------------------
@@ -401,9 +353,7 @@ private:
         const double a = normal[0].dot(within[0]), b = normal[0].dot(within[1]), c = normal[1].dot(within[0]),
                      d = normal[1].dot(within[1]);
         const double det = a * d - b * c;
-        // If the angle between two walls is smaller than this [radian], the walls count as one. Not measured.
-        constexpr double kSameWay = 1e-3;
-        if (!(a > 0 && det > kSameWay * a * d)) return;
+        if (!(a > 0 && det > kVisible * a * d)) return; // the two walls are one
         at(layer, node) += within[0] * ((d * off[0] - b * off[1]) / det) +
                            within[1] * ((a * off[1] - c * off[0]) / det);
     }

@@ -8,7 +8,9 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/background.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/large_pages.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/sweep/detail/rim.h>
 
@@ -164,12 +166,12 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
     if (first == 0) std::copy(source_.nodes.begin(), source_.nodes.end(), at(0));
     if (last == columns_.layers + 1) std::copy(target_.begin(), target_.end(), at(columns_.layers));
     const int low_inner = std::max(first, 1), high_inner = std::min(last, columns_.layers);
-    constexpr int kGroup = HarmonicSpread::kFields;
-    const int groups = std::max(0, (high_inner - low_inner + kGroup - 1) / kGroup);
+    const int groups = std::max(0, (high_inner - low_inner + HarmonicSpread::kFields - 1) /
+                                       HarmonicSpread::kFields);
     const auto each_group = [&](std::size_t begin, std::size_t end, const auto& visit) {
         for (auto group = static_cast<int>(begin); group < static_cast<int>(end); ++group) {
-            const int low = low_inner + group * kGroup;
-            const auto count = index(std::min(kGroup, high_inner - low));
+            const int low = low_inner + group * HarmonicSpread::kFields;
+            const auto count = index(std::min(HarmonicSpread::kFields, high_inner - low));
             visit(at(low), index(low - 1), count);
         }
     };
@@ -187,23 +189,22 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
             });
         });
     } else {
-        // A chunk of nodes of both ends takes 24 kB. It stays in the first-level cache until the nodes of all
-        // layers are written.
-        constexpr std::size_t kChunk = 512;
-        parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {
+        // The nodes of a task take 24 kB at both ends. They stay in the first-level cache until the nodes of
+        // all layers are written.
+        parallel_for(context, nodes, kPerTask, [&](std::size_t begin, std::size_t end) {
             each_group(0, index(groups), [&](Vec3* layer, std::size_t i, std::size_t count) {
                 map(layer, i, count, begin, end, nullptr);
             });
         });
     }
-    constexpr std::size_t kRows = 16; // rim rows per thread; fewer are not worth one. Not measured
-    parallel_for(context, index(last - first), kRows, [&](std::size_t begin, std::size_t end) {
-        for (int l = first + static_cast<int>(begin); l < first + static_cast<int>(end); ++l) {
-            const std::span<const Vec3> row = columns_.row(l);
-            Vec3* layer = at(l);
-            for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
-        }
-    });
+    parallel_for(context, index(last - first), 1 + kBetweenPolls / std::max<std::size_t>(1, rim),
+                 [&](std::size_t begin, std::size_t end) {
+                     for (int l = first + static_cast<int>(begin); l < first + static_cast<int>(end); ++l) {
+                         const std::span<const Vec3> row = columns_.row(l);
+                         Vec3* layer = at(l);
+                         for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
+                     }
+                 });
 }
 
 std::string LayerPlacer::report() const

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/predicates.h>
@@ -22,8 +23,6 @@ using namespace topology;
 
 namespace {
 
-/// Maximum corner angle of a quad on either end. It decides how many quads meet at a rim node. Not measured.
-constexpr double kWidest = 150 * kDegree;
 /// The quads at a node of the mean outline need 90° each. If the outline's angle is smaller than their sum by
 /// more than the first value, the node is moved inward until the difference is the second value. If 45° were
 /// missing, the paver would place one quad fewer there. Not measured.
@@ -72,7 +71,8 @@ void draw_in(const std::vector<Index>& loop, FlatRims& rims)
         const std::size_t a = index(loop[(i + n - 1) % n]), b = index(loop[i]), c = index(loop[(i + 1) % n]);
         const double larger = std::max(inner_angle(rims.low[a], rims.low[b], rims.low[c]),
                                        inner_angle(rims.high[a], rims.high[b], rims.high[c]));
-        const double quads = std::ceil(larger / kWidest);
+        // In a wider corner than this, a quad would be poor.
+        const double quads = std::ceil(larger / (std::numbers::pi - std::asin(kPoorQuad)));
         if (inner_angle(mean[a], mean[b], mean[c]) >= quads * kRightAngle - kMayLack) continue;
         const double wanted = quads * kRightAngle - kLacks;
         if (wanted >= std::numbers::pi) continue;

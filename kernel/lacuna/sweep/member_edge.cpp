@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/member_edge.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/seeds.h>
 
@@ -42,7 +43,8 @@ MemberEdge member_edge(const topology::Model& model, std::size_t member, EdgeId 
 
 bool is_same(const MemberEdge& a, const MemberEdge& b, double tolerance)
 {
-    const double slack = tolerance + kSameMiddle * a.length;
+    // Facets of different fineness have slightly different midpoints.
+    const double slack = tolerance + kAlikeSizes * a.length;
     if (a.closed != b.closed || std::abs(a.length - b.length) > slack) return false;
     if (a.closed) {
         // Boxes around two sets of chords of one curve differ by at most the sag of the chords, and mean

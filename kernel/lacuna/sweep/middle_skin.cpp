@@ -292,11 +292,9 @@ private:
             for (const std::size_t place : places) points.push_back(skin_.node(place));
             surface::Projector(model_, {face}).project(points, context_);
             for (std::size_t i = 0; i < places.size(); ++i) {
-                // Share of the model's size. Smaller moves are not made, so that flat quads stay exactly
-                // flat.
-                constexpr double kRounding = 1e-14;
+                // Moves within rounding are not made, so that flat quads stay exactly flat.
                 Vec3& at = skin_.node(places[i]);
-                if ((points[i] - at).norm() > kRounding * model_.diagonal) at = points[i];
+                if ((points[i] - at).norm() > kRoundoff * model_.diagonal) at = points[i];
                 skin_.set(places[i], Middle::settled);
             }
         }

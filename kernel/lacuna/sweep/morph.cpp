@@ -3,6 +3,7 @@
 
 #include <lacuna/core/message.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
@@ -15,9 +16,6 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A mesh counts as equally good as the source if its worst quad is worse by at most this. With a higher
-/// value, smoothing runs less often. Not measured.
-constexpr double kSameQuality = 0.01;
 /// If the worst quad of the morphed mesh is below this share of the source's worst quad, other starting
 /// positions are tried. Not measured.
 constexpr double kStandsUp = 0.5;

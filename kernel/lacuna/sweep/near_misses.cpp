@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -30,22 +32,13 @@ constexpr double kWidest = 5e-3;
 /// window. The share is a quarter between faces that diverge linearly, and a half between faces that curve
 /// away from a contact.
 constexpr double kStaysNear = 0.6;
-/// Least share of a face, or of an edge, that must be near the other member. A smaller part counts if its
-/// mean width exceeds the window or, along an edge, if it is longer than `kCorner` windows.
+/// A smaller share of a face, or of an edge, does not count, neither as near the other member nor as apart
+/// from it. Near the other member, a smaller part counts if its mean width exceeds the window or, along an
+/// edge, if it is longer than `kCorner` windows.
 constexpr double kPart = 0.05;
 /// Two vertices of two rims correspond if their distance is at most this many times the distance of the rims.
 /// At corners of 30°, corresponding vertices are nearly four times as far apart as the sides.
 constexpr double kCorner = 4;
-/// If more than this share of the area within the window is beyond the tolerance, the faces coincide only in
-/// part.
-constexpr double kApart = 0.05;
-/// Factor on the tolerance for parts that were split off faces. Their corners were moved onto the other face
-/// and then along its rim, each time within the tolerance, so the total may reach √2 times the tolerance.
-constexpr double kLaid = 1.5;
-/// A face counts as covered entirely if at least this share of it is covered.
-constexpr double kWhole = 0.98;
-/// Number of sample points on an edge.
-constexpr int kPlacesAsked = 64;
 
 /// Vertices of a face's rim, without the start points of closed edges.
 std::vector<Vec3> corners_of(const Model& model, FaceId face)
@@ -152,7 +145,7 @@ private:
     /// Refuse two faces that coincide in part and are slightly apart elsewhere.
     void refuse_parted(const Faces& faces, const FaceOverlap& overlap) const
     {
-        if (is_curved(faces) || overlap.a.within - overlap.a.on <= kApart * overlap.a.within) return;
+        if (is_curved(faces) || overlap.a.within - overlap.a.on <= kPart * overlap.a.within) return;
         const double width = std::max(overlap.gap, overlap.depth);
         throw InvalidInput(Message("assembly.crack",
                                    "{} of {} and {} of {} coincide in part and are up to {:.2g} apart "
@@ -167,9 +160,11 @@ private:
         const Model &a = one_.volume->model, &b = other_.volume->model;
         const auto overlap = pair_.overlaps.find(faces);
         const bool whole = overlap != pair_.overlaps.end() &&
-                           overlap->second.a.within >= kWhole * face_area(a, faces.first) &&
-                           overlap->second.b.within >= kWhole * face_area(b, faces.second);
-        return joining_tolerance(a, std::max(whole ? width : kLaid * width,
+                           overlap->second.a.within >= (1 - kPart) * face_area(a, faces.first) &&
+                           overlap->second.b.within >= (1 - kPart) * face_area(b, faces.second);
+        // The corners of parts that were split off faces were moved onto the other face and then along its
+        // rim, each time within the tolerance.
+        return joining_tolerance(a, std::max(whole ? width : std::numbers::sqrt2 * width,
                                              corners_apart(a, faces.first, b, faces.second, width)));
     }
 
@@ -232,17 +227,17 @@ private:
             const double sag = geometry::sag(line);
             double within = 0, most = 0, all = 0, least = kInfinity;
             FaceId nearest;
-            for (int i = 0; i < kPlacesAsked; ++i) {
-                const Vec3 p = geometry::point_at(line, arc, arc.back() * (i + 0.5) / kPlacesAsked);
+            for (int i = 0; i < kFineChords; ++i) {
+                const Vec3 p = geometry::point_at(line, arc, arc.back() * (i + 0.5) / kFineChords);
                 const auto hit = tree->closest(p, around * around);
                 if (hit.triangle < 0) continue;
                 const FaceId face = face_of[index(hit.triangle)];
                 const double distance = std::sqrt(hit.distance2);
-                all += arc.back() / kPlacesAsked;
+                all += arc.back() / kFineChords;
                 if (distance > pair_.window || shared_[there][face.index()] ||
                     distance <= pair_.tolerance + sag + sag_[there][face.index()])
                     continue;
-                within += arc.back() / kPlacesAsked;
+                within += arc.back() / kFineChords;
                 if (distance < least) nearest = face;
                 least = std::min(least, distance);
                 most = std::max(most, distance);

@@ -227,7 +227,7 @@ private:
         const Vec3 arm = tilt * across(mark, a_.centre, from);
         for (const Vec3& p : b_.marks) {
             const Vec3 other = across(p, b_.centre, to);
-            if (std::abs(other.norm() - arm.norm()) > kSameMiddle * a_.reach) continue;
+            if (std::abs(other.norm() - arm.norm()) > kAlikeSizes * a_.reach) continue;
             const double turn = std::atan2(to.dot(arm.cross(other)), arm.dot(other));
             add(Eigen::AngleAxisd(turn, to).toRotationMatrix() * tilt);
         }
@@ -278,7 +278,7 @@ private:
     std::vector<std::size_t> rough_images(const Isometry3d& motion)
     {
         const double exact = tolerance_;
-        tolerance_ += kSameMiddle * a_.reach;
+        tolerance_ += kAlikeSizes * a_.reach;
         std::vector<std::size_t> image = images(motion);
         tolerance_ = exact;
         return image;

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/swept_motion.h>
 #include <lacuna/surface/shared/wall_columns.h>
@@ -19,10 +20,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// Number of points along each column at which the size is evaluated. Variations between two points are
-/// missed. Not measured.
-constexpr int kSamples = 32;
 
 /// Number of chords by which the turning of a column is measured: few enough to ignore local dents, and
 /// enough to resolve the bends of a sweep. Not measured.
@@ -57,10 +54,10 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
                    const RunContext& context)
 {
     Columns mean;
-    mean.wanted.assign(kSamples + 1, 0.0);
+    mean.wanted.assign(kFineChords + 1, 0.0);
     std::vector<std::vector<Vec3>> columns;
     for (const surface::LinkingSurface& link : links)
-        std::ranges::move(surface::wall_columns(volume, link, kSamples, context),
+        std::ranges::move(surface::wall_columns(volume, link, kFineChords, context),
                           std::back_inserter(columns));
     const auto share = 1 / static_cast<double>(std::max<std::size_t>(columns.size(), 1));
     for (const std::vector<Vec3>& points : columns) {
@@ -73,7 +70,7 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
         }
         mean.length += share * length;
         mean.turning += share * turning_of(points);
-        mean.sides += share * length / middle(points[kSamples / 2]);
+        mean.sides += share * length / middle(points[kFineChords / 2]);
     }
     double least = mean.wanted.back(), most = 0;
     for (std::size_t i = 1; i < mean.wanted.size(); ++i) {
@@ -107,7 +104,7 @@ std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int 
 /// Number of layers that the size requires between the source and a share of the columns' length.
 double wanted_at(const Columns& columns, double share)
 {
-    const double at = share * kSamples;
+    const double at = share * kFineChords;
     const auto i = std::min(static_cast<std::size_t>(at), columns.wanted.size() - 2);
     return columns.wanted[i] + (at - static_cast<double>(i)) * (columns.wanted[i + 1] - columns.wanted[i]);
 }
@@ -124,7 +121,7 @@ std::vector<double> following_heights(const Columns& columns, double from, doubl
         while (i + 2 < columns.wanted.size() && columns.wanted[i + 1] < sides) ++i;
         heights.push_back((static_cast<double>(i) +
                            (sides - columns.wanted[i]) / (columns.wanted[i + 1] - columns.wanted[i])) /
-                          kSamples);
+                          kFineChords);
     }
     heights.push_back(to);
     return heights;

@@ -69,8 +69,7 @@ void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mes
     }
     // The bend of a side, relative to its length, is proportional to the length, so a cell of `share` times
     // the size is valid. The suggestion is a tenth smaller.
-    constexpr double kBelow = 0.9;
-    const double share = kBelow * valid_share(quality::hex27_of(mesh, cell));
+    const double share = kSuggestedShare * valid_share(quality::hex27_of(mesh, cell));
     constexpr std::size_t kFirstUpright = 16;
     const Hex hex = mesh.hex(cell);
     std::array<Vec3, 8> corners;

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
@@ -139,11 +140,9 @@ Vec3 nearest_on(const Model& model, const surface::Chain& chain, const Vec3& p)
         }
     }
     // The exact curve differs slightly from its polyline. Two steps were enough in all cases tried.
-    constexpr int kSteps = 4;
-    constexpr double kStep = 1e-5; // step for the tangent, as a share of the chain's length; not measured
-    const double step = kStep * chain.length();
+    const double step = kDifference * chain.length();
     Vec3 point = p;
-    for (int i = 0; i < kSteps; ++i) {
+    for (int i = 0; i < kMostSteps; ++i) {
         length = std::clamp(length, 0.0, chain.length() - step);
         const double lengths[] = {length, length + step};
         const std::vector<Vec3> on = chain.points(lengths);

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/same_edges.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/topology/shared/give_mesh.h>
@@ -14,13 +15,6 @@
 namespace lacuna::sweep {
 
 using namespace topology;
-
-namespace {
-
-/// Number of halvings that find the length at which the edges of a cusp have diverged.
-constexpr int kHalvings = 64;
-
-} // namespace
 
 SameEdges::SameEdges(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
                      std::span<const std::pair<std::size_t, FaceId>> beside,
@@ -78,7 +72,7 @@ void SameEdges::find_same()
     same_ = geometry::UnionFind(edges_.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         const MemberEdge& a = edges_[order[i]];
-        const double reach = a.box.min().x() + model(a.member).tolerance + kSameMiddle * a.length;
+        const double reach = a.box.min().x() + model(a.member).tolerance + kAlikeSizes * a.length;
         for (std::size_t k = i + 1; k < order.size() && edges_[order[k]].box.min().x() <= reach; ++k) {
             const MemberEdge& b = edges_[order[k]];
             const double within = std::max(model(a.member).tolerance, model(b.member).tolerance);
@@ -176,7 +170,7 @@ void SameEdges::find_cusp(std::size_t m, FaceId face, const EdgeUse& in, const E
     };
     if (is_flat(most) || !is_flat(std::min(back_at[1], on_at[1]))) return;
     double low = 0, high = most;
-    for (int round = 0; round < kHalvings; ++round)
+    for (int round = 0; round < kMostRounds; ++round)
         (is_flat((low + high) / 2) ? low : high) = (low + high) / 2;
     for (const auto& [e, end] : {std::pair(a, !in.reversed), std::pair(b, out.reversed)}) {
         double& first = cusps_[set_[e]][end == runs_along(e) ? 1 : 0];

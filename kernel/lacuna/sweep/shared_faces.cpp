@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -24,16 +26,12 @@ namespace {
 
 /// Two faces whose rims agree are the same face if at least this share of each lies on the other. Coverage
 /// may be incomplete: coarse chords of a rim cut off parts of a flat face, and facets of different fineness
-/// leave gaps next to the rim of a curved face.
+/// leave gaps next to the rim of a curved face. If two faces touch along a rim and curve away from each
+/// other, less than this share of either face is closer to the other face than the error of the facets.
 constexpr double kMostly = 0.5;
-/// If the common part is at most this share of each face, the faces only touch along their rims.
-constexpr double kNothing = 1e-3;
 /// The sag of chords is only an estimate. Points of one rim may be off the chords of the other rim by this
 /// many times the sag.
 constexpr double kRimSag = 1.5;
-/// If two faces touch along a rim and curve away from each other, less than this share of either face is
-/// closer to the other face than the error of the facets.
-constexpr double kAlongRim = 0.5;
 /// A face prepared for comparison.
 struct Side {
     const OpenVolume* volume = nullptr;
@@ -164,17 +162,17 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
         const double whole = face_area(one.model(), one.face),
                      whole_other = face_area(other.model(), other.face);
         const double there = overlap->a.on / whole, back = overlap->b.on / whole_other;
-        if (there <= kNothing && back <= kNothing) return {};
+        if (there <= kVisible && back <= kVisible) return {};
         // The two faces may lie on opposite sides of one curve, which they approximate by different chords.
         if (std::max(there, back) < kMostly) {
             const double under = area_under_arcs(rim_chords(one.model(), one.face),
                                                  rim_chords(other.model(), other.face), tolerance);
-            if (overlap->a.on <= under + kNothing * std::min(whole, whole_other)) return {};
+            if (overlap->a.on <= under + kVisible * std::min(whole, whole_other)) return {};
         }
         same = there >= kMostly && back >= kMostly && !refused &&
                rims_agree(a, one, b, other, tolerance, window, common);
         // Faces that touch along a common rim and curve away from each other are close only along that rim.
-        if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
+        if (!same && limit > tolerance && std::max(there, back) < kMostly) return {};
         percent_a = 100 * std::min(there, 1.0);
         percent_b = 100 * std::min(back, 1.0);
         common.refusal = Message("assembly.part_of_face",
@@ -228,10 +226,6 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
     return miss;
 }
 
-/// Number of facets of a volume for which the program tests whether their midpoints are inside another
-/// volume.
-constexpr std::size_t kAsked = 64;
-
 /// A tree of a volume's facets. The tree is empty if the volume has free edges.
 geometry::FacetTree closed_skin(const OpenVolume& volume)
 {
@@ -262,7 +256,7 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
         sag.resize(own.size(), side.sag);
     }
     const Model& model = a.volume->model;
-    const std::size_t step = std::max<std::size_t>(1, own.size() / kAsked);
+    const std::size_t step = std::max<std::size_t>(1, own.size() / kFineChords);
     for (std::size_t t = 0; t < own.size(); t += step) {
         const Vec3 p = (model.at(own[t][0]) + model.at(own[t][1]) + model.at(own[t][2])) / 3;
         if (!tree.bounds().contains(p)) continue;
@@ -429,7 +423,7 @@ std::vector<FaceContact> faces_in_contact(std::span<const AssemblyMember> member
         if (!a.whole.empty() && a.whole == b.whole) continue;
         for (const auto& [faces, overlap] : pair.overlaps) {
             const double least = std::min(area(pair.a, faces.first), area(pair.b, faces.second));
-            const bool touch = overlap.a.on - overlap.a.same_way > kNothing * least;
+            const bool touch = overlap.a.on - overlap.a.same_way > kVisible * least;
             const bool hidden = covered[pair.a][faces.first.index()] != 0 ||
                                 covered[pair.b][faces.second.index()] != 0;
             if (touch ? a.glue == b.glue : hidden) continue;

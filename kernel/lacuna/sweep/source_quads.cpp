@@ -3,7 +3,9 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/quads/shared/odd_region.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 #include <lacuna/quads/shared/pave.h>
 #include <lacuna/quads/shared/submap.h>
 #include <lacuna/surface/shared/default_size.h>
@@ -24,11 +26,6 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of source quads that narrow places may cause by default. If there would be more, narrow
-/// places stay coarse. A ring whose width is a 200th of its radius needs some 8,000 quads for three quads
-/// across. Not measured.
-constexpr double kMostForWidth = 20000;
-
 /// Maximum number of cells if the size or the number of layers is not given. With more cells, a solver would
 /// exceed the memory of a large workstation; often a length has the wrong unit. Not measured.
 constexpr double kMostUnasked = 50e6;
@@ -39,7 +36,6 @@ constexpr double kMostUnasked = 50e6;
 double sides_over(const OpenVolume& volume, Role role, const surface::SizeField& size, int power,
                   const SweepOptions& options)
 {
-    constexpr std::size_t kSamples = 64; ///< facets per face; a rough count suffices
     const bool kept = role == Role::wall || options.quads == Quads::automatic || options.quads == Quads::keep;
     double by_size = 0, given = 0, given_area = 0, all_area = 0;
     for (const FaceId id : volume.faces(role)) {
@@ -51,7 +47,7 @@ double sides_over(const OpenVolume& volume, Role role, const surface::SizeField&
             given_area += area;
         }
         double sum = 0, sampled = 0;
-        const std::size_t step = std::max<std::size_t>(1, face.triangles.size() / kSamples);
+        const std::size_t step = std::max<std::size_t>(1, face.triangles.size() / kFineChords);
         for (std::size_t t = 0; t < face.triangles.size(); t += step) {
             const Vec3 &a = volume.model.at(face.triangles[t][0]), &b = volume.model.at(face.triangles[t][1]),
                        &c = volume.model.at(face.triangles[t][2]);
@@ -89,13 +85,13 @@ double quads_by_turns(std::span<const surface::LinkingSurface> links, const Mode
 ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
                              KnownLinks& links, const RunContext& context)
 {
-    constexpr double kMost = std::numeric_limits<Index>::max();
+    const double most = std::numeric_limits<Index>::max();
     double quads = std::max(1., sides_over(volume, Role::source, size.shape.at, 2, options));
     if (options.curvature > SweepOptions{}.curvature && !volume.faces(Role::wall).empty())
         quads += quads_by_turns(links.of(volume, context), volume.model, size.shape.at, options.curvature);
     double layers = std::max(options.layers.count, static_cast<int>(options.layers.heights.size()));
     const double asked = std::max(1., layers);
-    if (!(quads * asked < kMost && asked < kMost / 16))
+    if (!(quads * asked < most && asked < most / 16))
         throw InvalidInput(
             Message(
                 "sweep.too_many",
@@ -160,7 +156,9 @@ void reduce_by_shape(const OpenVolume& volume, const SweepOptions& options, Sour
     size.sizing = gap_by_default ? surface::ShapeSizing{options.curvature, kDefaultGap, maps}
                                  : surface::ShapeSizing{options.curvature, options.gap};
     size.shape = surface::shape_size(volume, size.asked, size.sizing);
-    if (gap_by_default && size.shape.width && surface::asks_for_more(volume, size.shape.at, kMostForWidth)) {
+    // If narrow places would cause very many source quads by default, they stay coarse.
+    if (gap_by_default && size.shape.width &&
+        surface::asks_for_more(volume, size.shape.at, quads::kManyQuads)) {
         size.too_narrow = size.shape.width;
         size.sizing = {options.curvature, 0};
         size.shape = surface::shape_size(volume, size.asked, size.sizing);

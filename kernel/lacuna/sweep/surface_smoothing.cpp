@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/surface_smoothing.h>
 
+#include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
+#include <lacuna/geometry/shared/pattern_search.h>
 
 #include <Eigen/LU>
 
@@ -15,12 +18,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Number of preconditioned steps, enough for the relaxation to converge. The best mesh among them is kept.
-constexpr int kRelaxations = 20;
-/// Maximum number of rounds of trials. The trials end after a round without gain.
-constexpr int kPolishes = 20;
-/// Number of directions, and number of step lengths, that are tried around a node. Not measured.
-constexpr int kDirections = 8;
+/// Number of step lengths that are tried around a node. Not measured.
 constexpr int kLengths = 3;
 
 const Vec3& at(std::span<const Vec3> points, Index i) { return points[index(i)]; }
@@ -103,9 +101,8 @@ double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<con
 
 double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes, const RunContext& context)
 {
-    constexpr std::size_t kBlock = 4096; // quads per task; not measured
     const std::vector<Vec3> normals = node_normals(quads, nodes);
-    return parallel_min(context, quads.size(), kBlock, 1, [&](std::size_t begin, std::size_t end) {
+    return parallel_min(context, quads.size(), kBetweenPolls, 1, [&](std::size_t begin, std::size_t end) {
         double worst = 1;
         for (std::size_t q = begin; q < end; ++q)
             worst = std::min(worst, quad_quality(quads[q], nodes, normals));
@@ -148,7 +145,7 @@ std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_en
     std::vector<Vec3> best = nodes;
     double best_worst = worst_quad(model_.quads, nodes, context);
     std::vector<Vec3> load(nodes.size());
-    for (int round = 0; round < kRelaxations && best_worst < good_enough; ++round) {
+    for (int round = 0; round < kMostSteps && best_worst < good_enough; ++round) {
         check_cancelled(context);
         const std::vector<Vec3> normals = node_normals(model_.quads, nodes);
         for (const Index node : free_nodes_) {
@@ -213,11 +210,12 @@ Vec3 SurfaceSmoother::trial_place(std::size_t node, int trial, std::span<const V
     }
     if (trial == 0 || !(normal.norm() > 0)) return mean;
     // Steps of 1/4, 1/16 and 1/64 of the mean side, in eight directions.
-    const double length = side * std::pow(0.25, 1 + (trial - 1) / kDirections);
-    const double angle = (trial - 1) % kDirections * std::atan(1.0);
+    const auto directions = static_cast<int>(geometry::all_around().size());
+    const double length = side * std::pow(0.25, 1 + (trial - 1) / directions);
+    const Vec2& way = geometry::all_around()[index((trial - 1) % directions)];
     const Vec3 u = normal.unitOrthogonal();
     const Vec3 v = normal.normalized().cross(u);
-    return nodes[node] + length * (std::cos(angle) * u + std::sin(angle) * v);
+    return nodes[node] + length * (way.x() * u + way.y() * v);
 }
 
 /// One round of trials for the nodes of poor quads. @return  whether any node moved.
@@ -229,7 +227,8 @@ bool SurfaceSmoother::polish_once(std::vector<Vec3>& nodes, double good_enough) 
 
     bool moved = false;
     std::vector<Vec3> places(poor.size());
-    for (int trial = 0; trial <= kDirections * kLengths; ++trial) {
+    const auto directions = static_cast<int>(geometry::all_around().size());
+    for (int trial = 0; trial <= directions * kLengths; ++trial) {
         for (std::size_t k = 0; k < poor.size(); ++k) {
             places[k] = trial_place(poor[k], trial, nodes, normals[poor[k]]);
         }
@@ -252,7 +251,7 @@ std::vector<Vec3> SurfaceSmoother::polish(std::vector<Vec3> nodes, double good_e
 {
     std::vector<Vec3> best = nodes;
     double best_worst = worst_quad(model_.quads, nodes, context);
-    for (int round = 0; round < kPolishes && best_worst < good_enough; ++round) {
+    for (int round = 0; round < kMostRounds && best_worst < good_enough; ++round) {
         check_cancelled(context);
         if (!polish_once(nodes, good_enough)) break;
         const double worst = worst_quad(model_.quads, nodes, context);

@@ -25,9 +25,6 @@ using namespace topology;
 
 namespace {
 
-/// Minimum number of layers of a full turn, as for hexahedra alone. With fewer layers, a cell would span 120°
-/// or more.
-constexpr int kLeastPerTurn = 4;
 /// Angle of a layer [radian] at which a polygon with such chords has 1 % less area than the circle.
 const double kOnePercent = std::sqrt(0.06);
 

@@ -2,7 +2,9 @@
 #include <lacuna/sweep/detail/volume_share.h>
 
 #include <lacuna/closure/close.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/surface/shared/rim_breaks.h>
 #include <lacuna/surface/shared/shape_size.h>
 #include <lacuna/surface/shared/wall_columns.h>
@@ -50,13 +52,10 @@ constexpr double kFewer = 1.5;
 constexpr double kSmaller = 0.9;
 /// Maximum number of layers because of curvature along the sweep: enough for a spiral of five turns.
 constexpr int kMostLayers = 300;
-/// Resolution of the wall model: number of columns along a whole rim, and number of rows from source to
-/// target. A polygon of 128 sides lacks 0.04 % of the circle's area.
+/// Resolution of the wall model: number of columns along a whole rim. A polygon of 128 sides lacks 0.04 % of
+/// the circle's area.
 constexpr double kColumns = 128;
-constexpr int kRows = 64;
-/// Walls count as straight from rim to rim if replacing them by straight ones changes the volume by at most
-/// this share.
-constexpr double kStraight = 1e-3;
+
 double lost_by(double turn, double side) { return turn * side * side / 12; }
 
 double area_of(const OpenVolume& volume, Role end)
@@ -171,7 +170,8 @@ public:
                     found -= six_volumes(apex_, line[i] - origin_, line[i + 1] - origin_);
             }
             rings_[b].sign = found * own < 0 ? -1 : 1;
-            straight_ = straight_ && std::abs(rings_[b].sign * found - own) < 6 * kStraight * whole_;
+            // Walls are straight from rim to rim if straight ones do not change the volume visibly.
+            straight_ = straight_ && std::abs(rings_[b].sign * found - own) < 6 * kVisible * whole_;
         }
     }
 
@@ -182,7 +182,7 @@ public:
     void follow(const RunContext& context)
     {
         for (std::size_t b = 0; b < rings_.size(); ++b) {
-            rings_[b].rows = surface::wall_rows(volume_, links_[b], rings_[b].nodes, kRows, context);
+            rings_[b].rows = surface::wall_rows(volume_, links_[b], rings_[b].nodes, kFineChords, context);
             rings_[b].within = enclosed(rings_[b], {}, 0, 1);
         }
     }

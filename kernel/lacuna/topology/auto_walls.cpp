@@ -22,7 +22,7 @@ namespace {
 
 /// Maximum number of steps of the search for choices. A hundred sheets, of which three meet at each shared
 /// edge, need about this number.
-constexpr std::size_t kMostSteps = 100000;
+constexpr std::size_t kWalkLimit = 100000;
 
 /// All faces connected to the faces `from` over shared edges, without crossing the faces `without`.
 std::vector<FaceId> reachable_from(const Model& model, const std::vector<FaceId>& from,
@@ -136,7 +136,7 @@ private:
     bool search(std::size_t sheet)
     {
         check_cancelled(context_);
-        if (++steps_ > kMostSteps) return false;
+        if (++steps_ > kWalkLimit) return false;
         if (sheet == sheets_.size()) {
             keep();
             return true;

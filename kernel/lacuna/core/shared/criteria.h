@@ -84,6 +84,10 @@ inline constexpr double kPoorCell = 0.3;
 /// A tetrahedron below this is a sliver, and a note says so. Meshes without narrow places reach 0.1.
 inline constexpr double kSliver = 0.02;
 
+/// Scaled Jacobians whose difference is smaller count as equal: a smaller loss is accepted, and a smaller
+/// gain is not worth any work.
+inline constexpr double kSameQuality = 0.01;
+
 // Same volume
 
 /// Two volumes are equal if they differ by less than this share of the larger volume. The sag of facets alone

@@ -13,8 +13,8 @@ namespace lacuna {
 /// The length of a half circle is too short by 0.2 %.
 inline constexpr int kChords = 16;
 
-/// Chords, sections or points that represent the shape of a curve, a wall or a loop. A bend by 90° turns by
-/// less than 1.5° from one chord to the next, a full turn by less than 6°.
+/// Chords, sections, points or facets that represent the shape of a curve, a wall, a loop or a face. A bend
+/// by 90° turns by less than 1.5° from one chord to the next, a full turn by less than 6°.
 inline constexpr int kFineChords = 64;
 
 /// Directions, columns or points around a full turn: one per degree.
@@ -49,6 +49,9 @@ inline constexpr double kMostCells = 1e7;
 /// Limit on the rounds of an iteration that ends by itself, usually after a few rounds. It keeps an input on
 /// which the iteration does not settle from holding the caller.
 inline constexpr int kMostRounds = 64;
+
+/// An iteration that may stagnate ends after this number of consecutive rounds without gain.
+inline constexpr int kIdleRounds = 4;
 
 /// Number of elements in one task of a parallel loop if an element takes a microsecond or more, as a cell
 /// does. For faster elements, `kBetweenPolls` is used.

@@ -1,28 +1,34 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/types.h>
 
 #include <array>
+#include <numbers>
 #include <span>
 
 namespace lacuna::geometry {
 
-/// Step lengths of `pattern_search()`.
+/// Usual longest and shortest step of `pattern_search()`, as shares of `PatternSteps::scale`. Shorter steps
+/// gain little.
+inline constexpr double kLongestStep = 1.0 / 4, kShortestStep = 1.0 / 256;
+
 struct PatternSteps {
-    double scale;       ///< unit of the step lengths, such as the length of a side at the point
-    double first, last; ///< longest and shortest step [of `scale`]
-    double least_gain;  ///< required increase of the value for a step of length `scale`, >= 0
+    double scale;          ///< unit of the step lengths, such as the length of a side at the point
+    double least_gain = 0; ///< required increase of the value for a step of length `scale`, >= 0
+    double longest = kLongestStep, shortest = kShortestStep; ///< [of `scale`]
 };
 
 /// Eight directions, every 45°.
 inline std::span<const Vec2> all_around()
 {
-    constexpr double kDiagonal = 0.70710678118654752; // √½
-    static const std::array<Vec2, 8> kDirections{
-        Vec2(1, 0),  Vec2(kDiagonal, kDiagonal),   Vec2(0, 1),  Vec2(-kDiagonal, kDiagonal),
-        Vec2(-1, 0), Vec2(-kDiagonal, -kDiagonal), Vec2(0, -1), Vec2(kDiagonal, -kDiagonal)};
-    return kDirections;
+    static const std::array<Vec2, 8> directions = [] {
+        const double half = std::numbers::sqrt2 / 2;
+        return std::array<Vec2, 8>{Vec2(1, 0),  Vec2(half, half),   Vec2(0, 1),  Vec2(-half, half),
+                                   Vec2(-1, 0), Vec2(-half, -half), Vec2(0, -1), Vec2(half, -half)};
+    }();
+    return directions;
 }
 
 /// Move a point to increase a value by pattern search: try steps in some directions, and halve the step if
@@ -37,12 +43,10 @@ template <class Value>
 double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value,
                       std::span<const Vec2> directions = all_around())
 {
-    // Limits the number of steps of each length, because values may increase by rounding alone. A search
-    // needs far fewer steps.
-    constexpr int kRounds = 10000;
-    for (double step = steps.first * steps.scale; step > steps.last * steps.scale; step /= 2) {
+    for (double step = steps.longest * steps.scale; step >= steps.shortest * steps.scale; step /= 2) {
         bool better = true;
-        for (int round = 0; better && round < kRounds; ++round) {
+        // The limit is needed because values may increase by rounding alone.
+        for (int round = 0; better && round < kMostRounds; ++round) {
             better = false;
             const Vec2 from = x;
             for (const Vec2& direction : directions) {

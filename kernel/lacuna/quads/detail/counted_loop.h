@@ -50,6 +50,10 @@ inline constexpr CountRange kRing{1 / kLongestOfSize, 1 / kShortestOfSize}, kSeg
 inline constexpr double kRingRounding = 1.03;
 inline constexpr CountRange kRingSegment{kRing.least / kRingRounding, kRing.most* kRingRounding};
 
+/// Weight of the deviation of the number of quads from the requested number, against the costs of the numbers
+/// of sides. Chosen on 40 outlines of the family that `--held` draws (benchmarks/pave/).
+inline constexpr double kWeightOfQuads = 0.25;
+
 /// Whether a number of sides is within a range of the wanted number, or differs from it by one.
 bool is_within(const CountRange& range, double wanted, int sides);
 

@@ -4,6 +4,7 @@
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/detail/counted_loop.h>
 #include <lacuna/quads/detail/outline_symmetry.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 
 #include <optional>
 #include <vector>
@@ -23,16 +24,8 @@ std::optional<Counts> mirror_counts(const CountTask& task);
 /// @throw Cancelled
 double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunContext& context);
 
-/// The axes of a part are divided by a graded size, which grows away from short given sides. With fewer quads
-/// than this, the requested size is tried first, because the graded size would leave too few grid lines in
-/// the part.
-inline constexpr double kFewForGrading = 200;
-
-/// Maximum number of parts that are tried. Each part lies between another pair of mirror axes, and the pairs
-/// with the best rank are used.
-inline constexpr std::size_t kMostChoices = 4;
-
-/// The cheapest result over parts between different pairs of axes.
+/// The cheapest result over parts between different pairs of axes. At most `kCandidates` pairs are tried,
+/// those with the best rank.
 /// @param sizes  sizes for dividing the axes. The last size is used only if no grid fills a part with any of
 ///         the other sizes.
 /// @param make   makes a result from a part. The result has a cost, which is infinite if no grid fills the
@@ -45,7 +38,7 @@ auto cheapest_of_parts(const PlanarRegion& region, const std::vector<Symmetry>& 
     decltype(std::optional(make(MirrorPart()))) best;
     for (std::size_t s = 0; s < sizes.size() && !best; ++s) {
         const bool is_last = s + 1 == sizes.size();
-        for (std::size_t choice = 0; choice < (is_last ? 1 : kMostChoices); ++choice) {
+        for (std::size_t choice = 0; choice < (is_last ? 1 : kCandidates); ++choice) {
             auto part = mirror_part(region, symmetries, sizes[s], choice);
             if (!part) break;
             auto made = make(std::move(*part));

@@ -12,10 +12,6 @@
 
 namespace lacuna::quads {
 
-/// Two symmetries are the same if their angles differ by less than this [radian]. The value is far above the
-/// accuracy of nodes, and far below the angle between two symmetries.
-inline constexpr double kSameAngle = 1e-5;
-
 /// A rotation about a centre. If `mirrors`, a reflection that reverses y is applied before it.
 struct Isometry {
     Vec2 centre;

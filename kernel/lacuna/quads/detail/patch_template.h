@@ -17,6 +17,10 @@ namespace lacuna::quads {
 /// Maximum number of sides of a patch, or of a part of it including the cut.
 constexpr std::size_t kMostSides = 6;
 
+/// Number of nodes at even steps along an outline or a side from which lines across a region are tried. It
+/// bounds the time.
+inline constexpr std::size_t kPlacesTried = 32;
+
 /// Numbers of edges along the sides of a patch.
 struct SideCounts {
     std::array<int, kMostSides> side{};

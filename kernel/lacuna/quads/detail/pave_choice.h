@@ -115,7 +115,6 @@ private:
     AttemptSetting setting_;
     Attempt best_;
     double best_score_ = -2;
-    std::size_t made_ = 0;                ///< number of quads made in all attempts together
     std::vector<std::uint64_t> finished_; ///< hashes of the attempts before they were finished
     bool is_good_grid_ = false;
     bool is_near_least_ = false; ///< whether the best attempt has nearly the least number of irregular nodes

@@ -23,6 +23,12 @@ int even_sides(double wanted, int least);
 /// Above this number of quads, `pave()` first paves with a quarter as many quads and refines this mesh, and
 /// does not make the mesh symmetric. Both limit the time.
 inline constexpr double kManyQuads = 20'000;
+/// With fewer quads than this, numbers of sides are chosen with more care, which takes little time. Grids are
+/// made for several solutions. The axes of a part are divided by the requested size first, because the graded
+/// size, which grows away from short given sides, would leave too few grid lines in the part.
+inline constexpr double kFewQuads = 200;
+/// Number of candidates that are tried, in the order of their estimated cost.
+inline constexpr std::size_t kCandidates = 4;
 /// A segment with fewer wanted sides than this need not get an even number of sides, because rounding would
 /// change its edge length too much.
 inline constexpr double kFewestEven = 8;

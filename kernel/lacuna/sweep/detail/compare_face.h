@@ -37,6 +37,11 @@ struct Skin {
 Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std::size_t face_count,
              const RunContext& context = {});
 
+/// Distance from a face, as a share of a quad's side, up to which a quad follows the face; see
+/// `FidelityOptions`. Of points farther away, another part of the skin may be nearest, or an opposite part of
+/// the face.
+inline constexpr double kShareOfSide = 0.25;
+
 /// Allowed distance between a face and its quads: a length, or a share of a quad's side.
 struct DeviationLimit {
     double length = 0; ///< the same for all quads [model length]; 0: a share of the side

@@ -10,10 +10,6 @@
 /// Edges of members of an assembly. Internal to this folder.
 namespace lacuna::sweep {
 
-/// Two edges with matching ends are the same if their midpoints differ by at most this share of their length,
-/// because facets of different fineness have slightly different midpoints.
-inline constexpr double kSameMiddle = 1e-2;
-
 /// An edge of a member.
 struct MemberEdge {
     std::size_t member = 0;

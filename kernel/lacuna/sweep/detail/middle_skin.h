@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/sweep/detail/second_order.h>
 #include <lacuna/sweep/shared/side_middles.h>
@@ -27,17 +28,15 @@ enum class Middle : std::uint8_t {
 /// Indices of the skin's middle nodes in a compact array.
 class SkinPlaces {
 public:
-    static constexpr std::size_t kInside = std::numeric_limits<std::size_t>::max();
-
     /// @param mesh  a mesh whose sides are numbered
     explicit SkinPlaces(const mesh::HexMesh& mesh);
-    /// Compact index of a middle node, from its index among all; `kInside`: not on the skin.
+    /// Compact index of a middle node, from its index among all; `kNoIndex`: not on the skin.
     [[nodiscard]] std::size_t of(std::size_t place) const
     {
         const std::size_t level = place / period_, slot = place % period_;
         if (slot < on_level_ && level == 0) return slot;
         if (slot < on_level_ && level == layers_) return on_level_ + slot;
-        return rank_[slot] < 0 ? kInside : 2 * on_level_ + level * ring_ + index(rank_[slot]);
+        return rank_[slot] < 0 ? kNoIndex : 2 * on_level_ + level * ring_ + index(rank_[slot]);
     }
     [[nodiscard]] std::size_t count() const { return 2 * on_level_ + layers_ * ring_; }
 
@@ -62,7 +61,7 @@ public:
     [[nodiscard]] Middle state(std::size_t place) const
     {
         const std::size_t at = places_.of(place);
-        return at == SkinPlaces::kInside ? Middle::inside : states_[at];
+        return at == kNoIndex ? Middle::inside : states_[at];
     }
     /// The nodes in the order of the compact indices of `SkinPlaces`.
     [[nodiscard]] const std::vector<Vec3>& nodes() const { return nodes_; }

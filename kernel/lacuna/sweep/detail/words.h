@@ -5,10 +5,13 @@
 
 #include <string>
 
-/// Positions in messages. Internal to this folder.
+/// Positions and suggestions in messages. Internal to this folder.
 namespace lacuna::sweep {
 
 /// A position as text, in numbers of two significant digits: "(1.2, 0, 3)".
 std::string place_in_short(const Vec3& p);
+
+/// Sizes are suggested a tenth smaller than an estimate requires, because side lengths vary.
+inline constexpr double kSuggestedShare = 0.9;
 
 } // namespace lacuna::sweep

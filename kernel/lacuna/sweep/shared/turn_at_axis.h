@@ -8,6 +8,10 @@
 
 namespace lacuna::sweep {
 
+/// Least number of layers of a full turn: with fewer layers, one layer spans 120° or more, too much for a
+/// cell.
+inline constexpr int kLeastPerTurn = 4;
+
 /// A turn around an axis that contains edges of the source.
 struct AxisTurn {
     Vec3 point, axis; ///< a point on the axis, and its direction, of length 1
