@@ -319,6 +319,28 @@ for _, sides in ipairs { 4, 6 } do
   tells(nil, counterbore:format(sides, 0.1, "true"))
 end
 
+-- A tube that ends inside its shell: smooth ends run down to its rims like funnels.
+local bundle = [[
+local model, sides = lacuna.model(), 24
+local function tube(name, x, radius, low, high, out)
+  local points, cells = {}, {}
+  for _, z in ipairs { low, high } do
+    for k = 1, sides do
+      local turn = 2 * math.pi * k / sides
+      points[#points + 1] = { x + radius * math.cos(turn), radius * math.sin(turn), z }
+    end
+  end
+  for k = 1, sides do
+    local next = k %% sides + 1
+    cells[k] = out and { k, next, next + sides, k + sides } or { next, k, k + sides, next + sides }
+  end
+  return model:add_face { name = name, points = points, cells = cells }
+end
+local void = model:open_volume { walls = {
+  tube("shell", 0, 30, 0, 100, true), tube("through", -10, 5, 0, 100), tube("short", 10, 5, %g, %g) } }]]
+tells("closure.membrane closure.membrane", bundle:format(20, 80))
+tells(nil, bundle:format(0, 100))
+
 -- Nothing is assumed where all is given.
 tells(nil, prism("sides = 6", ends .. ', walls = "auto"'))
 tells(nil, prism('sides = 6, drop = { "target" }', 'source = "source", walls = "auto"'))

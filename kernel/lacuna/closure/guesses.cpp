@@ -12,6 +12,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
@@ -84,6 +85,20 @@ Between beside_thin_plate(const Model& model, FaceId face)
     const geometry::Plane plane = mean_plane(model, face);
     const ThinPlate plate = plate_over(plane, model, model[face].loops);
     return *between(model, face, plane, [&](const Vec2& p) { return std::optional(plate.height(p)); });
+}
+
+/// Volume between a void face with several loops and the plane of its longest loop, if this loop is flat. The
+/// missing face may be flat there, and the parts at the other loops end before or behind it [model length³].
+double beside_flat_rim(const Model& model, FaceId face)
+{
+    const std::vector<Loop>& loops = model[face].loops;
+    if (loops.size() < 2) return 0;
+    const Loop& longest = *std::ranges::max_element(
+        loops, {}, [&](const Loop& loop) { return geometry::length(loop_places(model, loop.uses)); });
+    if (!is_flat(model, {longest.uses})) return 0;
+    const std::vector<std::vector<Vec3>> chains{loop_places(model, longest.uses)};
+    const geometry::Plane plane = geometry::newell_plane(chains);
+    return between(model, face, plane, [](const Vec2&) { return std::optional(0.0); })->all;
 }
 
 bool is_far_off_plane(const Model& model, double enclosed, FaceId face)
@@ -429,7 +444,8 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                        "{} is a smooth face over a rim that is not planar, so its shape is assumed",
                        entity_of(model, face))
                    .remedy("if the true face bulges otherwise, give it"),
-               std::abs(beside_thin_plate(model, face).above) / enclosed);
+               std::max(std::abs(beside_thin_plate(model, face).above), beside_flat_rim(model, face)) /
+                   enclosed);
     if (by == RolesBy::finding) note_flat_in_circles(model, enclosed, closure);
     for (const FaceId face : closure.void_faces) {
         // If the user named the roles, exactly one wall is missing at such a rim. Otherwise several faces may

@@ -251,11 +251,13 @@ private:
                 "and {} triangles there",
                 entity_of(patch), found(matched), needed(quads), given, triangles);
             if (triangles > 0)
-                throw InvalidInput(why.remedy("only tetrahedra keep the triangles: sweep with quads = \"keep\" "
-                                              "and fallback = \"mixed\""));
+                throw InvalidInput(
+                    why.remedy("only tetrahedra keep the triangles: sweep with quads = \"keep\" "
+                               "and fallback = \"mixed\""));
             if (given == 0) throw InvalidInput(why.remedy("load the deck with keep_mesh = true"));
-            throw InvalidInput(why.remedy("sweep with quads = \"auto\" or \"keep\"; both ends keep their quads "
-                                          "only if these agree, so name ends whose quads do"));
+            throw InvalidInput(
+                why.remedy("sweep with quads = \"auto\" or \"keep\"; both ends keep their quads "
+                           "only if these agree, so name ends whose quads do"));
         }
     }
 
