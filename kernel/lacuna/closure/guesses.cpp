@@ -72,11 +72,17 @@ std::optional<Between> between(const Model& model, FaceId face, const geometry::
     return sum;
 }
 
+/// Volume between a void face and a plane [model length³].
+double beside(const geometry::Plane& plane, const Model& model, FaceId face)
+{
+    return between(model, face, plane, [](const Vec2&) { return std::optional(0.0); })->all;
+}
+
 /// Volume between a void face and the plane through its centre [model length³].
 double beside_plane(const Model& model, FaceId face)
 {
     if (!(face_area_vector(model, face).norm() > 0)) return 0;
-    return between(model, face, mean_plane(model, face), [](const Vec2&) { return std::optional(0.0); })->all;
+    return beside(mean_plane(model, face), model, face);
 }
 
 Between beside_thin_plate(const Model& model, FaceId face)
@@ -87,33 +93,32 @@ Between beside_thin_plate(const Model& model, FaceId face)
     return *between(model, face, plane, [&](const Vec2& p) { return std::optional(plate.height(p)); });
 }
 
+/// Largest distance of points from the plane of their largest projected area [model length].
+double off_one_plane(const std::vector<Vec3>& places)
+{
+    const geometry::Plane plane = geometry::newell_plane({&places, 1});
+    double furthest = 0;
+    for (const Vec3& p : places) furthest = std::max(furthest, std::abs(geometry::height(plane, p)));
+    return furthest;
+}
+
 /// Volume between a void face with several loops and the plane of its longest loop, if this loop is flat. The
 /// missing face may be flat there, and the parts at the other loops end before or behind it [model length³].
 double beside_flat_rim(const Model& model, FaceId face)
 {
-    const std::vector<Loop>& loops = model[face].loops;
-    if (loops.size() < 2) return 0;
-    const Loop& longest = *std::ranges::max_element(
-        loops, {}, [&](const Loop& loop) { return geometry::length(loop_places(model, loop.uses)); });
-    if (!is_flat(model, {longest.uses})) return 0;
-    const std::vector<std::vector<Vec3>> chains{loop_places(model, longest.uses)};
-    const geometry::Plane plane = geometry::newell_plane(chains);
-    return between(model, face, plane, [](const Vec2&) { return std::optional(0.0); })->all;
+    if (model[face].loops.size() < 2) return 0;
+    std::vector<Vec3> rim;
+    for (const Loop& loop : model[face].loops) {
+        std::vector<Vec3> places = loop_places(model, loop.uses);
+        if (geometry::length(places) > geometry::length(rim)) rim = std::move(places);
+    }
+    if (off_one_plane(rim) > model.tolerance) return 0;
+    return beside(geometry::newell_plane({&rim, 1}), model, face);
 }
 
 bool is_far_off_plane(const Model& model, double enclosed, FaceId face)
 {
     return beside_plane(model, face) >= kDoubt * enclosed;
-}
-
-/// Largest distance of points from the plane of their largest projected area [model length].
-double off_one_plane(std::vector<Vec3> places)
-{
-    const std::vector<std::vector<Vec3>> chain{std::move(places)};
-    const geometry::Plane plane = geometry::newell_plane(chain);
-    double furthest = 0;
-    for (const Vec3& p : chain.front()) furthest = std::max(furthest, std::abs(geometry::height(plane, p)));
-    return furthest;
 }
 
 /// The angles between consecutive segments of a chain, largest first [radians].

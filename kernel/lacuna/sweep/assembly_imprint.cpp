@@ -47,6 +47,13 @@ std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const 
     return (p - q).norm() <= within ? std::optional<Vec3>((p + q) / 2) : std::nullopt;
 }
 
+/// Whether the points of an edge's line lie on an exact curve, with their parameters.
+bool has_curve(const Model& model, EdgeId id, const std::vector<Vec3>& line)
+{
+    const Edge& edge = model[id];
+    return edge.curve && !edge.params.empty() && line.size() == edge.points.size();
+}
+
 /// A chord of an edge.
 struct Chord {
     const Model* model;
@@ -55,12 +62,7 @@ struct Chord {
     std::size_t start;             ///< the index of the chord's first point
 
     [[nodiscard]] Vec3 direction() const { return (*line)[start + 1] - (*line)[start]; }
-    /// Whether the chord stands for an exact curve.
-    [[nodiscard]] bool is_curved() const
-    {
-        const Edge& own = (*model)[edge];
-        return own.curve && !own.params.empty() && line->size() == own.points.size();
-    }
+    [[nodiscard]] bool is_curved() const { return has_curve(*model, edge, *line); }
     /// The point beside a fraction of the chord, on the exact curve if there is one.
     [[nodiscard]] Vec3 at(double fraction) const
     {
@@ -214,11 +216,9 @@ struct SideOfPair {
 bool curve_runs_through(const Model& model, EdgeId id, const std::vector<Vec3>& line, const OnLine& place,
                         const Vec3& p, double within)
 {
-    const Edge& edge = model[id];
-    if (!edge.curve || edge.params.empty() || line.size() != edge.points.size()) return false;
-    if (place.distance > within + geometry::sag(line)) return false;
+    if (!has_curve(model, id, line) || place.distance > within + geometry::sag(line)) return false;
     const geometry::PolylinePlace on = geometry::place_at(geometry::arc_lengths(line), place.at);
-    return (curve_beside(model, edge, on.segment, on.fraction).place - p).norm() <= within;
+    return (curve_beside(model, model[id], on.segment, on.fraction).place - p).norm() <= within;
 }
 
 /// Make the point of the given edges closest to `p` a vertex, if it is within the tolerance of `p`.

@@ -456,8 +456,9 @@ private:
     /// Allowed distance of a sample. It is larger around a tip.
     [[nodiscard]] double allowed(const Sample& sample) const
     {
+        constexpr double kReach = 2; // sides from the tip, see `DeviationLimit::at_tip`
         const bool at_tip = limit_.length == 0 && std::ranges::any_of(tips_, [&](const Vec3& tip) {
-                                return (sample.point - tip).norm() < 2 * limit_.at_tip * sample.side;
+                                return (sample.point - tip).norm() < kReach * sample.side;
                             });
         const double share = at_tip ? limit_.at_tip : limit_.share;
         return (limit_.length > 0 ? limit_.length : std::max(share * sample.side, limit_.least)) +
