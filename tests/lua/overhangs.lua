@@ -56,6 +56,34 @@ do -- A level below the upper rim is another such plane.
   check.that(math.abs(volume / (math.pi * 1600 * 90) - 1) < 0.02, tostring(volume))
 end
 
+-- A shaft that ends inside its sleeve: the slanted ends are noted, and a level there makes the end flat.
+do
+  local model = sleeved(20, 120, 0)
+  local roles = { source = shaft(model), target = bore(model) }
+  local function said(volume)
+    volume:close()
+    return volume:describe():find("past the plane", 1, true) ~= nil
+  end
+  check.that(said(model:open_volume(roles)), "slanted end: no note")
+  roles.fill_to = { { 0, 0, 20 }, { 0, 0, -1 } }
+  check.that(not said(model:open_volume(roles)))
+  local volume = volume_of(model, roles, 8)
+  check.that(math.abs(volume / (math.pi * 1600 * 80) - 1) < 0.02, tostring(volume))
+end
+
+-- A film thinner than the sag of its facets.
+do
+  local model = solids("film", [[
+Cylinder(1) = {0,0,0, 0,0,100, 60};  Cylinder(2) = {0,0,0, 0,0,100, 50};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(4) = {0,0,-20, 0,0,140, 49.9};]])
+  local roles = { source = model:face { kind = "cylinder", radius = { 49, 49.95 } },
+    target = model:face { kind = "cylinder", radius = { 49.95, 51 } } }
+  local volume, quality = volume_of(model, roles, 8)
+  check.that(math.abs(volume / (math.pi * (50 ^ 2 - 49.9 ^ 2) * 100) - 1) < 0.02, tostring(volume))
+  check.that(quality.min_scaled_jacobian > 0.5)
+end
+
 -- --- levels at a rim ---------------------------------------------------------------------------------------
 
 do

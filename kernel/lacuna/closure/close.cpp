@@ -297,7 +297,7 @@ private:
                          closure);
         const RolesBy by = options_.take_guess ? RolesBy::finding : RolesBy::person;
         note_open_rims(sealed, by, closure);
-        if (options_.take_guess) note_joined_rims(sealed.model, closure);
+        note_joined_rims(sealed, by, closure);
         if (asks_for_shape(options_)) closure.assumptions.clear();
         note_closed_holes(volume_.model, all_faces(volume_.model), sealed, by, closure);
     }

@@ -13,6 +13,7 @@
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
@@ -311,6 +312,48 @@ void note_one_wall(const Model& model, FaceId face, Closure& closure)
            1);
 }
 
+/// The given faces at a rim of a void face.
+std::vector<FaceId> given_at(const Model& model, const Rim& rim)
+{
+    std::vector<FaceId> given;
+    for (const EdgeUse& use : rim.uses)
+        for (const FaceUse& by : model.uses_of_edge(use.edge))
+            if (model[by.face].origin == Origin::given) given.push_back(by.face);
+    return given;
+}
+
+/// Note a void wall between two flat rims if the plane of one rim crosses a face at the other rim, as where a
+/// shaft ends inside its sleeve: the volume may end in that plane.
+void note_end_inside(const OpenVolume& sealed, FaceId wall, const std::vector<Rim>& rims, Closure& closure)
+{
+    const Model& model = sealed.model;
+    for (const std::size_t i : {0, 1}) {
+        const std::vector<std::vector<Vec3>> loop{loop_places(model, rims[i].uses)};
+        geometry::Plane plane = geometry::newell_plane(loop);
+        const FaceId inner = given_at(model, rims[i]).front(), outer = given_at(model, rims[1 - i]).front();
+        double low = 0, high = 0;
+        for (const Index p : corner_points(model[outer])) {
+            const double height = geometry::height(plane, model.at(p));
+            low = std::min(low, height);
+            high = std::max(high, height);
+        }
+        if (low >= -model.tolerance || high <= model.tolerance) continue;
+        if (geometry::height(plane, face_centroid(model, inner)) > 0) plane.normal = -plane.normal;
+        const auto short_of = [&](double x) { return std::abs(x) <= model.tolerance ? 0.0 : x; };
+        const Vec3 o = plane.origin.unaryExpr(short_of), n = plane.normal.unaryExpr(short_of);
+        assume(
+            closure,
+            Message("closure.end_inside",
+                    "{} runs from the rim of {} to the rim of {}, which extends past the plane of the "
+                    "first rim",
+                    entity_of(model, wall), entity_of(model, inner), entity_of(model, outer))
+                .remedy("if the volume ends in this plane, give fill_to = {{ {{ {:.6g}, {:.6g}, {:.6g} }}, "
+                        "{{ {:.6g}, {:.6g}, {:.6g} }} }}",
+                        o.x(), o.y(), o.z(), n.x(), n.y(), n.z()),
+            beside(plane, model, wall) / enclosed_volume(sealed));
+    }
+}
+
 /// Note flat void faces in circles. Balls, cones and rings go through a circle as well, and no edge shows
 /// which of these faces is missing.
 void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
@@ -467,20 +510,21 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
     }
 }
 
-void note_joined_rims(const Model& model, Closure& closure)
+void note_joined_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
 {
+    const Model& model = sealed.model;
     const auto is_flat_and_given = [&](const Rim& rim) {
-        return is_flat(model, rim) && std::ranges::any_of(rim.uses, [&](const EdgeUse& use) {
-                   return std::ranges::any_of(model.uses_of_edge(use.edge), [&](const FaceUse& by) {
-                       return model[by.face].origin == Origin::given;
-                   });
-               });
+        return is_flat(model, rim) && !given_at(model, rim).empty();
     };
     for (const FaceId face : closure.void_faces) {
         const std::vector<Rim> both = rims(model, {face});
-        if (both.size() == 2 && !plane_of(model, face) && !is_untold(model, face) &&
-            std::ranges::all_of(both, is_flat_and_given))
+        if (both.size() != 2 || plane_of(model, face) || is_untold(model, face) ||
+            !std::ranges::all_of(both, is_flat_and_given))
+            continue;
+        if (by == RolesBy::finding)
             note_one_wall(model, face, closure);
+        else
+            note_end_inside(sealed, face, both, closure);
     }
 }
 

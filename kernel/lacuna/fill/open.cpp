@@ -262,8 +262,19 @@ std::optional<Opening> opening_of(const RoleRequest& request, const Model& model
     return opening;
 }
 
-/// Cut the faces off at the level of `fill_to`. Empty if the plane crosses missing faces: then the volume
-/// must be closed before it is cut.
+/// Whether faces reach a plane.
+bool reach(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane)
+{
+    return std::ranges::any_of(faces, [&](FaceId face) {
+        return std::ranges::any_of(topology::corners_of(model[face]), [&](Index p) {
+            return std::abs(geometry::height(plane, model.at(p))) <= model.tolerance;
+        });
+    });
+}
+
+/// Cut the faces off at the level of `fill_to`. Empty if the volume must be closed before it is cut:
+/// - the plane crosses missing faces;
+/// - the roles are given, and the flat face at the level is no wall, because an end does not reach the level.
 std::optional<Opening> filled_to_level(const Model& model, const RoleRequest& request,
                                        const RunContext& context)
 {
@@ -274,6 +285,10 @@ std::optional<Opening> filled_to_level(const Model& model, const RoleRequest& re
     const std::vector<FaceId> gone = trimmed->gone;
     auto opening = opening_of(request, model, std::move(*trimmed));
     if (!opening) return std::nullopt;
+    if (const auto& roles = opening->request.roles;
+        roles && !(reach(opening->model, roles->source, *request.fill_to) &&
+                   reach(opening->model, roles->target, *request.fill_to)))
+        return std::nullopt;
     if (voids > 1) refuse_parts(voids);
     if (!gone.empty())
         log_line(context, formatted("note: left out, because the level of 'fill_to' lies below: {}",
@@ -316,10 +331,10 @@ Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext
     }
     if (!asked.along && !asked.full_turn) {
         // Without roles, these are found for the part below the level; faces at a step may be missing instead
-        // of sticking out. With roles, the volume is cut at the level, and keeps its flat face there.
-        if (opening.request.roles)
-            opening = without_overhangs(std::move(opening), context);
-        else if (auto level = asked.fill_to ? filled_to_level(whole, asked, context) : std::nullopt)
+        // of sticking out.
+        if (opening.request.roles) opening = without_overhangs(std::move(opening), context);
+        if (auto level = asked.fill_to ? filled_to_level(opening.model, opening.request, context)
+                                       : std::nullopt)
             opening = std::move(*level);
     }
     const auto& [model, request] = opening;

@@ -7,8 +7,10 @@
 #include <lacuna/healing/shared/stitch.h>
 #include <lacuna/sweep/shared/imprinted.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/face_radius.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -184,6 +186,28 @@ private:
         return bodies_[body].faces[face.index()];
     }
 
+    /// Whether the corners of two round faces show that a gap separates their surfaces. Facets of such faces
+    /// cross if the gap is thinner than their sag.
+    [[nodiscard]] bool are_apart(FaceId a, FaceId b) const
+    {
+        const auto one = round_shape(model_, a), other = round_shape(model_, b);
+        if (!one || !other) return false;
+        const double error = off_shape(*one, a) + off_shape(*other, b);
+        return std::max(off_shape(*one, b), off_shape(*other, a)) > model_.tolerance + error;
+    }
+
+    /// Maximum distance of a face's corners from a shape [model length].
+    [[nodiscard]] double off_shape(const RoundShape& shape, FaceId face) const
+    {
+        double off = 0;
+        for (const Index p : corner_points(model_[face])) {
+            const Vec3 out = model_.at(p) - shape.centre;
+            const double far = shape.axis ? out.cross(*shape.axis).norm() : out.norm();
+            off = std::max(off, std::abs(far - shape.radius));
+        }
+        return off;
+    }
+
     /// Whether faces of two bodies are in contact. Two closed skins that touch from outside (solids side by
     /// side) count as in contact only if they are inside a third body.
     [[nodiscard]] bool is_contact(const SharedFace& pair, bool same_side) const
@@ -192,6 +216,7 @@ private:
         if (!all_follow_ && is_named_[original(pair.a, pair.face_a).index()] == 0 &&
             is_named_[original(pair.b, pair.face_b).index()] == 0)
             return false;
+        if (are_apart(original(pair.a, pair.face_a), original(pair.b, pair.face_b))) return false;
         if (!a.complete || !b.complete || same_side) return true;
         return std::ranges::any_of(bodies_, [&](const Body& other) {
             return &other != &a && &other != &b && other.box.contains(a.box) && other.box.contains(b.box);
