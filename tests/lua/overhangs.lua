@@ -84,6 +84,17 @@ Cylinder(4) = {0,0,-20, 0,0,140, 49.9};]])
   check.that(quality.min_scaled_jacobian > 0.5)
 end
 
+-- Parts that reach into each other, by little or much, are refused by name.
+for _, deep in ipairs { 0.001, 0.5, 10 } do
+  for _, place in ipairs { ("20,20,%g"):format(-deep), ("%g,20,0"):format(-deep), ("60,50,%g"):format(40 - deep) } do
+    local model = solids("product", ([[
+Box(1) = {0,0,0, 120,90,40};  Box(2) = {%s, 60,40,30};]]):format(place))
+    check.fails(function()
+      model:open_volume { faces = model:faces() }:sweep { size = 8 }
+    end, "topology.faces_cross")
+  end
+end
+
 -- --- levels at a rim ---------------------------------------------------------------------------------------
 
 do

@@ -8,6 +8,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/progress.h>
+#include <lacuna/fill/detail/crossing_faces.h>
 #include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/members.h>
 #include <lacuna/fill/detail/touching_parts.h>
@@ -436,7 +437,9 @@ Volume open_named(const Model& model, const RoleRequest& request, const RunConte
 
 Volume open(const Model& model, const RoleRequest& request, const RunContext& context)
 {
-    Volume volume = open_named(model, without_repeats(model, request, context), context);
+    Volume volume = unless_faces_cross(model, named_faces(model, request), context, [&] {
+        return open_named(model, without_repeats(model, request, context), context);
+    });
     if (!request.roles && !request.faces && !request.full_turn) note_body_filled(model, context);
     return volume;
 }

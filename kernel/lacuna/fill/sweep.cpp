@@ -9,6 +9,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/describe.h>
+#include <lacuna/fill/detail/crossing_faces.h>
 #include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/members.h>
 #include <lacuna/io/shared/deck_middles.h>
@@ -390,7 +391,9 @@ Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& 
     const bool on_axis = volume.along && volume.along->on_axis &&
                          (options.wedges || options.fallback == sweep::Fallback::wedges);
     Filled filled = on_axis ? turn_at_axis(volume, request, context) : sweep_or_name_tets(options, [&] {
-        return sweep_or_fill(volume, request, context);
+        const topology::Model& model = volume.volume.model;
+        return unless_faces_cross(model, topology::all_faces(model), context,
+                                  [&] { return sweep_or_fill(volume, request, context); });
     });
     report_progress(context, "shape of the skin", 1);
     return filled;

@@ -9,6 +9,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>
+#include <lacuna/fill/detail/crossing_faces.h>
 #include <lacuna/fill/detail/members.h>
 #include <lacuna/fill/detail/touching_parts.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -268,10 +269,12 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
         return volume;
     }
     asked.take_guess = volume.take_guess;
-    closure::Closed closed = volume.along
-                                 ? closure::close_along(*volume.along, asked, context)
-                                 : closure::close(volume.volume, volume.match.value_or(matching::Match{}),
-                                                  asked, context);
+    const topology::Model& model = volume.volume.model;
+    closure::Closed closed = unless_faces_cross(model, topology::all_faces(model), context, [&] {
+        return volume.along
+                   ? closure::close_along(*volume.along, asked, context)
+                   : closure::close(volume.volume, volume.match.value_or(matching::Match{}), asked, context);
+    });
     if (volume.along && volume.along->walls)
         closed = with_given_walls(std::move(closed), *volume.along->walls, context);
     volume.volume = std::move(closed.volume);

@@ -7,6 +7,7 @@
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/sweep/detail/member_edge.h>
 #include <lacuna/sweep/detail/shared_faces.h>
+#include <lacuna/topology/shared/facet_sag.h>
 
 #include <algorithm>
 #include <cmath>

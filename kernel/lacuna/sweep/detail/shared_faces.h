@@ -43,10 +43,6 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
 /// @throw InvalidInput "assembly.part_of_face"  some faces are shared only in part.
 void refuse_partly_shared(const FacesInCommon& found);
 
-/// Maximum distance of a face's facets from the true surface, estimated from their angles [model length].
-/// O(facets).
-double facet_sag(const topology::Model& model, const topology::Face& face);
-
 /// A face or an edge of a member as messages name it.
 template <class Id>
 NamedEntity entity_in(const AssemblyMember& member, Id id)
