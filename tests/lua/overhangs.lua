@@ -86,7 +86,8 @@ end
 
 -- Parts that reach into each other, by little or much, are refused by name.
 for _, deep in ipairs { 0.001, 0.5, 10 } do
-  for _, place in ipairs { ("20,20,%g"):format(-deep), ("%g,20,0"):format(-deep), ("60,50,%g"):format(40 - deep) } do
+  for _, place in ipairs { ("20,20,%g"):format(-deep), ("%g,20,0"):format(-deep),
+    ("60,50,%g"):format(40 - deep) } do
     local model = solids("product", ([[
 Box(1) = {0,0,0, 120,90,40};  Box(2) = {%s, 60,40,30};]]):format(place))
     check.fails(function()
