@@ -84,6 +84,22 @@ Cylinder(4) = {0,0,-20, 0,0,140, 49.9};]])
   check.that(quality.min_scaled_jacobian > 0.5)
 end
 
+-- A body that stands in a pocket, or floats in it, and sticks out of its mouth. No roles are named.
+for _, body in ipairs {
+  { "Box(9) = {16,12,11.5, 17,17,20};", 17 * 17 * 13.5 },
+  { "Box(9) = {16,12,10, 17,17,20};", 17 * 17 * 15 },
+  { "Cylinder(9) = {25,20,10, 0,0,30, 6};", math.pi * 36 * 15 },
+  { "Sphere(9) = {25,20,25, 6};", 2 / 3 * math.pi * 216 } } do
+  local model = solids("pocket", [[
+Box(1) = {0,0,0, 50,40,25};  Box(2) = {15,10,10, 20,20,15};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+]] .. body[1])
+  local inner = model:faces { box = { { 14.9, 9.9, 9.9 }, { 35.1, 30.1, 60 } } }
+  local volume, quality = volume_of(model, { faces = inner }, 2)
+  check.that(math.abs(volume / (6000 - body[2]) - 1) < 0.02, body[1] .. volume)
+  check.that(quality.min_scaled_jacobian > 0.3, body[1])
+end
+
 -- Parts that reach into each other, by little or much, are refused by name.
 for _, deep in ipairs { 0.001, 0.5, 10 } do
   for _, place in ipairs { ("20,20,%g"):format(-deep), ("%g,20,0"):format(-deep),

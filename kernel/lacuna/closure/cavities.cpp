@@ -119,7 +119,9 @@ std::vector<Cavity> largest_cavities(const Model& model, std::size_t most, const
         const auto readings = only_reading(model, candidate, context);
         if (!readings) continue;
         Cavity& cavity = result.emplace_back(cavity_of(candidate, readings->front()));
-        std::ranges::copy(faces_inside(model, readings->front(), context), std::back_inserter(cavity.faces));
+        const std::vector<FaceId> inside = faces_inside(model, readings->front(), context);
+        cavity.has_bodies = !inside.empty();
+        cavity.faces.insert(cavity.faces.end(), inside.begin(), inside.end());
         std::ranges::sort(cavity.faces);
     }
     return result;

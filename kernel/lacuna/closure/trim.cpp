@@ -152,7 +152,7 @@ std::optional<Trimmed> trim(const Model& model, const std::vector<FaceId>& faces
     return result;
 }
 
-std::optional<Overhang> find_overhang(const Model& model, const std::vector<FaceId>& faces)
+std::optional<Overhang> find_overhang(const Model& model, const std::vector<FaceId>& faces, bool open_parts)
 {
     const std::vector<std::vector<FaceId>> parts = connected_parts(model, faces);
     if (parts.size() < 2) return std::nullopt;
@@ -167,6 +167,7 @@ std::optional<Overhang> find_overhang(const Model& model, const std::vector<Face
             if (!plane) continue;
             for (std::size_t p = 0; p < parts.size(); ++p) {
                 const std::vector<FaceId>& part = parts[p];
+                if (!open_parts && !rims(model, part).empty()) continue;
                 const double middle = geometry::height(*plane, boxes[p].center());
                 const double reach = plane->normal.cwiseAbs().dot(boxes[p].sizes()) / 2;
                 if (middle + reach <= model.tolerance || middle - reach >= -model.tolerance) continue;

@@ -298,13 +298,14 @@ std::optional<Opening> filled_to_level(const Model& model, const RoleRequest& re
     return opening;
 }
 
-/// Cut off the parts of faces that stick out of a flat rim of other faces.
+/// Cut off the parts of faces that stick out of a flat rim of other faces. Without roles, only closed parts
+/// are cut: where a part is open, faces at a step may be missing instead.
 Opening without_overhangs(Opening opening, const RunContext& context)
 {
     while (true) {
         const Model& model = opening.model;
         const std::vector<FaceId> named = named_faces(model, opening.request);
-        const auto found = closure::find_overhang(model, named);
+        const auto found = closure::find_overhang(model, named, opening.request.roles.has_value());
         auto trimmed = found ? closure::trim(model, named, found->faces, found->plane, context)
                              : std::nullopt;
         if (!trimmed) return opening;
@@ -329,11 +330,9 @@ Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext
         volume.role_reasons = find_walls(whole, *opening.request.roles, context);
         topology::require_none_left_out(whole, topology::all_faces(*opening.request.roles), "walls");
         opening.request.find_walls = false;
+        opening = without_overhangs(std::move(opening), context);
     }
     if (!asked.along && !asked.full_turn) {
-        // Without roles, these are found for the part below the level; faces at a step may be missing instead
-        // of sticking out.
-        if (opening.request.roles) opening = without_overhangs(std::move(opening), context);
         if (auto level = asked.fill_to ? filled_to_level(opening.model, opening.request, context)
                                        : std::nullopt)
             opening = std::move(*level);
@@ -410,8 +409,8 @@ void note_body_filled(const Model& model, const RunContext& context)
     std::string words;
     for (const closure::Cavity& cavity : closure::largest_cavities(model, kMostNamed, context)) {
         const auto tag = [&](FaceId face) { return std::to_string(model[face].tag); };
-        words += formatted("; for its {} of volume {:.4g} give faces={{{}}}", cavity.kind, cavity.volume,
-                           full_list(cavity.faces, tag));
+        words += formatted("; for its {} of volume {:.4g}{} give faces={{{}}}", cavity.kind, cavity.volume,
+                           cavity.has_bodies ? " (with the bodies in it)" : "", full_list(cavity.faces, tag));
     }
     if (!words.empty()) log_line(context, "note: no faces are named, so the body itself is filled" + words);
 }
@@ -427,10 +426,14 @@ Volume open_named(const Model& model, const RoleRequest& request, const RunConte
         log_line(context, left->note);
         return open_named(left->model, joined_request(request, *left), context);
     }
-    const auto joined = join_touching_parts(model, named, request.find_walls, context);
-    if (!joined) return open_apart(model, request, context);
+    Opening opening{model, request};
+    // Where a part stands on another, its top still sticks out of a rim.
+    if (!request.find_walls) opening = without_overhangs(std::move(opening), context);
+    const auto joined = join_touching_parts(opening.model, named_faces(opening.model, opening.request),
+                                            request.find_walls, context);
+    if (!joined) return open_apart(opening.model, opening.request, context);
     log_line(context, joined->note);
-    return open_apart(joined->model, joined_request(request, *joined), context);
+    return open_apart(joined->model, joined_request(opening.request, *joined), context);
 }
 
 } // namespace

@@ -16,7 +16,8 @@ struct Cavity {
     std::string kind;          ///< "pocket", "bore", "slot" or "inner void"
     std::vector<FaceId> faces; ///< the faces to name for an open volume, ascending
     topology::VolumeClass value = topology::VolumeClass::closed;
-    double volume = 0; ///< volume enclosed when the cavity is sealed [model length³]
+    double volume = 0; ///< volume enclosed when the cavity is sealed, bodies in it included [model length³]
+    bool has_bodies = false; ///< whether `faces` include those of bodies in the cavity
 };
 
 /// The cavities of the solids of a model, in the order of their first faces. Candidates are the hollows of
