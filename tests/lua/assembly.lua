@@ -310,6 +310,15 @@ for _, turn in ipairs { 0, 0.3 } do
   end
 end
 
+-- Long bars that cross have no facet with its middle in the other bar.
+for _, at in ipairs { 20, 37.3, 81 } do
+  for _, up in ipairs { 0, 1 } do
+    local one = block("one", { 0, 0, 0 }, { 200, 2, 2 }, 0)
+    local other = block("other", { at, -90, up }, { at + 2, 110, up + 2 }, 0)
+    check.fails(function() lacuna.assembly { one, other }:sweep { size = 1.5 } end, "assembly.overlap")
+  end
+end
+
 -- Sides that intervals ask for on an edge that volumes share are those of all of them.
 local function cube(z) return slab(z, nil, "cube" .. z) end
 local low, high = cube(0), cube(1)

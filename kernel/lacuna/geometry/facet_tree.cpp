@@ -428,24 +428,65 @@ bool overlap_in_plane(const Corners& a, const Corners& b, const Vec3& normal, do
 
 } // namespace
 
-bool triangles_cross(const Corners& a, const Corners& b, double tolerance)
+namespace {
+
+/// Two triangles relative to each other's planes.
+struct Crossing {
+    Vec3 normal_a, normal_b;
+    Vec3 heights_a, heights_b; ///< of the corners over the plane of the other triangle; 0 within `reach`
+    double reach = 0;          ///< the tolerance, or the rounding error if that is larger
+};
+
+/// @return  empty if a triangle is degenerate: where such a triangle intersects another one, its neighbours do
+///          too.
+std::optional<Crossing> crossing_of(const Corners& a, const Corners& b, double tolerance)
 {
     const Vec3 area_a = (a[1] - a[0]).cross(a[2] - a[0]), area_b = (b[1] - b[0]).cross(b[2] - b[0]);
-    // Degenerate triangles are skipped: where such a triangle intersects another one, its neighbours do too.
-    if (area_a.isZero(0) || area_b.isZero(0)) return false;
-    const Vec3 normal_a = area_a.normalized(), normal_b = area_b.normalized();
+    if (area_a.isZero(0) || area_b.isZero(0)) return std::nullopt;
+    Crossing c;
+    c.normal_a = area_a.normalized();
+    c.normal_b = area_b.normalized();
     // Heights and lengths have rounding errors of a few bits of the extent of the triangles.
     const Box extent = box_of(a).merged(box_of(b));
-    const double reach = std::max(tolerance,
-                                  16 * std::numeric_limits<double>::epsilon() * extent.diagonal().norm());
-    const Vec3 ha = heights_over(a, b, normal_b, reach), hb = heights_over(b, a, normal_a, reach);
-    if (ha.isZero(0)) return overlap_in_plane(a, b, normal_b, reach);
-    if (hb.isZero(0)) return overlap_in_plane(a, b, normal_a, reach);
-    if (!(ha.minCoeff() < 0 && ha.maxCoeff() > 0 && hb.minCoeff() < 0 && hb.maxCoeff() > 0)) return false;
-    const Vec3 line = normal_a.cross(normal_b).normalized();
+    c.reach = std::max(tolerance, 16 * std::numeric_limits<double>::epsilon() * extent.diagonal().norm());
+    c.heights_a = heights_over(a, b, c.normal_b, c.reach);
+    c.heights_b = heights_over(b, a, c.normal_a, c.reach);
+    return c;
+}
+
+std::optional<std::array<Vec3, 2>> line_of(const Corners& a, const Corners& b, const Crossing& c)
+{
+    const Vec3 &ha = c.heights_a, &hb = c.heights_b;
+    if (!(ha.minCoeff() < 0 && ha.maxCoeff() > 0 && hb.minCoeff() < 0 && hb.maxCoeff() > 0))
+        return std::nullopt;
+    const Vec3 line = c.normal_a.cross(c.normal_b).normalized();
     const auto [a0, a1] = stretch(a, ha, a[0], line);
     const auto [b0, b1] = stretch(b, hb, a[0], line);
-    return std::min(a1, b1) - std::max(a0, b0) > reach;
+    const double from = std::max(a0, b0), to = std::min(a1, b1);
+    if (!(to - from > c.reach)) return std::nullopt;
+    // A point of the line has height 0 over both planes; a[0] has not.
+    const auto foot = std::ranges::find_if(ha, [](double h) { return h > 0; }) - ha.begin();
+    const auto other = std::ranges::find_if(ha, [](double h) { return h < 0; }) - ha.begin();
+    const Vec3 on = a[foot] + ha[foot] / (ha[foot] - ha[other]) * (a[other] - a[foot]);
+    const double at = (on - a[0]).dot(line);
+    return std::array<Vec3, 2>{on + (from - at) * line, on + (to - at) * line};
+}
+
+} // namespace
+
+bool triangles_cross(const Corners& a, const Corners& b, double tolerance)
+{
+    const auto crossing = crossing_of(a, b, tolerance);
+    if (!crossing) return false;
+    if (crossing->heights_a.isZero(0)) return overlap_in_plane(a, b, crossing->normal_b, crossing->reach);
+    if (crossing->heights_b.isZero(0)) return overlap_in_plane(a, b, crossing->normal_a, crossing->reach);
+    return line_of(a, b, *crossing).has_value();
+}
+
+std::optional<std::array<Vec3, 2>> crossing_line(const Corners& a, const Corners& b, double tolerance)
+{
+    const auto crossing = crossing_of(a, b, tolerance);
+    return crossing ? line_of(a, b, *crossing) : std::nullopt;
 }
 
 } // namespace lacuna::geometry

@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/detail/near_misses.h>
 #include <lacuna/sweep/detail/rim_arcs.h>
@@ -14,6 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
 
 namespace lacuna::sweep {
 
@@ -246,30 +250,69 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
     if (inner.isEmpty() || !inner.intersects(box_of_a)) return;
     if (!skin_of_b) skin_of_b = closed_skin(*b.volume);
     const geometry::FacetTree& tree = *skin_of_b;
-    std::vector<Triangle> own;
-    std::vector<double> sag; // for each facet of `own`, the sag of its face
-    for (const Side& side : sides_of_a) {
-        own.insert(own.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
-        sag.resize(own.size(), side.sag);
-    }
-    const Model& model = a.volume->model;
-    const std::size_t step = std::max<std::size_t>(1, own.size() / kFineChords);
-    for (std::size_t t = 0; t < own.size(); t += step) {
-        const Vec3 p = (model.at(own[t][0]) + model.at(own[t][1]) + model.at(own[t][2])) / 3;
-        if (!tree.bounds().contains(p)) continue;
-        double by = depth + sag[t];
+    const auto is_far = [&](const Vec3& p, double sag) {
+        double by = depth + sag;
         for (const Side& side : sides_of_b) {
-            const double reach = depth + sag[t] + side.sag;
+            const double reach = depth + sag + side.sag;
             if (side.box.squaredExteriorDistance(p) <= reach * reach) by = std::max(by, reach);
         }
-        if (tree.closest(p, by * by).triangle >= 0) continue;
-        if (std::abs(tree.winding_number(p)) < 0.5) continue;
+        return tree.bounds().contains(p) && tree.closest(p, by * by).triangle < 0;
+    };
+    const auto refuse_inside = [&](const Vec3& p) {
+        if (std::abs(tree.winding_number(p)) < 0.5) return;
         throw InvalidInput(
             Message("assembly.overlap",
                     "{} reaches into {} at {}: volumes of an assembly may touch, but not overlap", a.region,
                     b.region, place_in_short(p))
                 .remedy("move or cut one of them in the CAD system"));
+    };
+    const Model& model = a.volume->model;
+    const auto corners = [](const Model& of, const Triangle& t) {
+        return std::array{of.at(t[0]), of.at(t[1]), of.at(t[2])};
+    };
+    std::vector<Triangle> own;
+    std::vector<double> sag; // for each facet of `own`, the sag of its face
+    for (const Side& side : sides_of_a) {
+        std::ranges::copy_if(side.face_data().triangles, std::back_inserter(own), [&](const Triangle& t) {
+            Eigen::AlignedBox3d box;
+            for (const Vec3& corner : corners(model, t)) box.extend(corner);
+            return tree.may_meet(box);
+        });
+        sag.resize(own.size(), side.sag);
     }
+    // A facet may run through the other volume from side to side. The middle of the lines in which it crosses
+    // the other skin, weighted by their lengths, is then inside.
+    std::vector<Vec3> middle(own.size(), Vec3::Zero());
+    std::vector<double> length(own.size(), 0);
+    std::vector<Triangle> theirs;
+    for (const Side& side : sides_of_b)
+        theirs.insert(theirs.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
+    geometry::FacetTree(model.points, own).overlaps(tree, [&](Index t, Index other) {
+        const auto line = geometry::crossing_line(
+            corners(model, own[index(t)]), corners(b.volume->model, theirs[index(other)]), model.tolerance);
+        if (!line) return true;
+        const double long_by = ((*line)[1] - (*line)[0]).norm();
+        middle[index(t)] += long_by * ((*line)[0] + (*line)[1]) / 2;
+        length[index(t)] += long_by;
+        return true;
+    });
+    // Other facets that are connected and far from the other skin are all inside or all outside.
+    geometry::UnionFind sets(model.points.size());
+    std::vector<std::pair<Index, Vec3>> far; // a corner and the middle of each such facet
+    for (std::size_t t = 0; t < own.size(); ++t) {
+        const auto [p, q, r] = corners(model, own[t]);
+        const Vec3 place = length[t] > 0 ? Vec3(middle[t] / length[t]) : (p + q + r) / 3;
+        if (!is_far(place, sag[t])) continue;
+        if (length[t] > 0) {
+            refuse_inside(place);
+            continue;
+        }
+        far.emplace_back(own[t][0], place);
+        for (const Index corner : own[t]) sets.unite_least(index(own[t][0]), index(corner));
+    }
+    std::set<std::size_t> seen;
+    for (const auto& [corner, place] : far)
+        if (seen.insert(sets.find(index(corner))).second) refuse_inside(place);
 }
 
 /// The faces of all members, prepared for comparison.

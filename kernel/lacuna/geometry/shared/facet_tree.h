@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -106,5 +107,10 @@ FacetTree::Hit closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& cor
 /// Coplanar triangles intersect if they overlap by more than `tolerance`.
 /// @param tolerance  [model length], >= 0.
 bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, double tolerance);
+
+/// The ends of the line in which two triangles in different planes intersect, see `triangles_cross()`; empty
+/// otherwise.
+std::optional<std::array<Vec3, 2>> crossing_line(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b,
+                                                 double tolerance);
 
 } // namespace lacuna::geometry
