@@ -437,8 +437,8 @@ struct Crossing {
     double reach = 0;          ///< the tolerance, or the rounding error if that is larger
 };
 
-/// @return  empty if a triangle is degenerate: where such a triangle intersects another one, its neighbours do
-///          too.
+/// @return  empty if a triangle is degenerate: where such a triangle intersects another one, its neighbours
+///          do too.
 std::optional<Crossing> crossing_of(const Corners& a, const Corners& b, double tolerance)
 {
     const Vec3 area_a = (a[1] - a[0]).cross(a[2] - a[0]), area_b = (b[1] - b[0]).cross(b[2] - b[0]);

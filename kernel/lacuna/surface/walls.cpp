@@ -10,6 +10,7 @@
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/strip_grid.h>
 #include <lacuna/surface/shared/swept_motion.h>
+#include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -231,20 +232,21 @@ private:
             left.push_back(point(k, first));
             right.push_back(point(k, last));
         }
-        // Flat faces use the plain transfinite patch, so that an affine block stays affine up to rounding.
-        const bool flat = model_[face].kind == "plane" || model_[face].geometry == Geometry::newell;
-        const std::vector<Vec3> grid = flat ? geometry::transfinite(bottom, right, top, left)
-                                            : geometry::swept_grid(bottom, right, top, left);
+        // Flat faces use the plain transfinite patch, so that an affine block stays affine up to rounding. It
+        // lies in their plane. Their facets do not cover it between the chords of a rim and its curve.
+        const bool flat = model_[face].kind == "plane" || plane_of(model_, face);
+        const std::vector<Vec3> grid = flat || model_[face].geometry == Geometry::newell
+                                           ? geometry::transfinite(bottom, right, top, left)
+                                           : geometry::swept_grid(bottom, right, top, left);
         std::vector<Vec3> inside;
         for (std::size_t k = 1; k < layers_; ++k) {
             for (std::size_t i = 1; i < n; ++i) inside.push_back(grid[k * (n + 1) + i]);
         }
-        const Face& f = model_[face];
-        if (f.kind != "plane" && !inside.empty()) {
+        if (!flat && !inside.empty()) {
             if (exact_) {
                 Projector(model_, {face}).project(inside, context_);
             } else {
-                const geometry::FacetTree tree(model_.points, f.triangles);
+                const geometry::FacetTree tree(model_.points, model_[face].triangles);
                 for (Vec3& p : inside) p = tree.closest(p).point;
             }
         }
