@@ -106,5 +106,18 @@ if has_cad and version then
   local volume = tee:open_volume { faces = round }
   check.equal(volume.class, "V")
   check.that(volume:sweep { size = 1 }:quality().min_scaled_jacobian > 0.3)
+  -- Between two bent tubes, both ends are divided alike, at circles that seams connect to the rims.
+  local tubes = ""
+  for i, r in ipairs { 17, 25 } do
+    tubes = tubes .. ("Circle(%d) = { 0, 0, -40, %g }; a[] = Extrude { 0, 0, 40 } { Curve{%d}; };"
+      .. "b[] = Extrude { { 0, 1, 0 }, { 100, 0, 0 }, Pi/2 } { Curve{a[0]}; };"
+      .. "c[] = Extrude { 40, 0, 0 } { Curve{b[0]}; };"):format(100 * i, r, 100 * i)
+  end
+  local jacket = made(tubes):open_volume { source = { 1, 2, 3 }, target = { 4, 5, 6 } }
+  local quality = jacket:sweep { size = 6, layers = 3 }:quality()
+  check.that(quality.min_scaled_jacobian > 0.5, "jacket: " .. quality.min_scaled_jacobian)
+  local exact = math.pi * (25 ^ 2 - 17 ^ 2) * (80 + 50 * math.pi)
+  check.that(math.abs(quality.volume / exact - 1) < 0.01, "jacket: " .. quality.volume)
+
   for _, ending in ipairs { "", ".geo", ".step" } do os.remove(path .. ending) end
 end

@@ -125,38 +125,64 @@ private:
 
     bool walk_faces(Role role)
     {
-        for (const FaceId face : volume_.faces(role)) {
-            std::map<EdgeId, int> times;
-            for (const EdgeUse& use : uses_of(model_[face])) ++times[use.edge];
-            for (const Loop& loop : model_[face].loops) {
-                Walk walk;
-                for (const EdgeUse& use : loop.uses) {
-                    if (times[use.edge] > 1) continue; // a seam has its face on both sides
-                    if (inner_.contains(use.edge))
-                        walk.push_back({use, false, use_from(model_, use)});
-                    else if (walk.empty() || !walk.back().rim || ends_.contains(use_from(model_, use)))
-                        walk.push_back({use, true, use_from(model_, use)});
-                }
-                // If the sequence of rim edges at the end of the loop continues at its start, both are one
-                // item.
-                if (walk.size() > 1 && walk.front().rim && walk.back().rim &&
-                    !ends_.contains(walk.front().from)) {
-                    walk.front() = walk.back();
-                    walk.pop_back();
-                }
-                for (std::size_t i = 0; i < walk.size(); ++i) {
-                    if (!walk[i].rim) at_use_[walk[i].use] = {walks_.size(), i};
-                    if (walk[i].rim && walk.size() == 1) {
-                        for (const EdgeUse& use : loop.uses) at_rim_[use.edge] = walks_.size();
-                    }
-                    if (!place_.try_emplace({walk[i].from, face}, std::pair(walks_.size(), i)).second &&
-                        ends_.contains(walk[i].from))
-                        return false; // the face touches itself
-                }
-                walks_.push_back(std::move(walk));
-                face_.push_back(face);
+        for (const FaceId face : volume_.faces(role))
+            for (const std::vector<EdgeUse>& chain : closed_chains(face))
+                if (!add_walk(face, chain)) return false;
+        return true;
+    }
+
+    /// The loops of a face without its seams. A seam, which has its face on both sides, joins two closed
+    /// chains to one loop.
+    [[nodiscard]] std::vector<std::vector<EdgeUse>> closed_chains(FaceId face) const
+    {
+        std::map<EdgeId, int> times;
+        for (const EdgeUse& use : uses_of(model_[face])) ++times[use.edge];
+        std::vector<std::vector<EdgeUse>> chains;
+        for (const Loop& loop : model_[face].loops) {
+            const std::size_t first = chains.size();
+            for (const EdgeUse& use : loop.uses) {
+                if (times[use.edge] > 1) continue;
+                if (chains.size() == first || use_to(model_, chains.back().back()) != use_from(model_, use))
+                    chains.emplace_back();
+                chains.back().push_back(use);
             }
+            // The last chain may continue in the first one.
+            if (chains.size() - first < 2 ||
+                use_to(model_, chains.back().back()) != use_from(model_, chains[first].front()))
+                continue;
+            chains.back().insert(chains.back().end(), chains[first].begin(), chains[first].end());
+            chains[first] = std::move(chains.back());
+            chains.pop_back();
         }
+        return chains;
+    }
+
+    /// @return  false if the face touches itself
+    bool add_walk(FaceId face, const std::vector<EdgeUse>& chain)
+    {
+        Walk walk;
+        for (const EdgeUse& use : chain) {
+            if (inner_.contains(use.edge))
+                walk.push_back({use, false, use_from(model_, use)});
+            else if (walk.empty() || !walk.back().rim || ends_.contains(use_from(model_, use)))
+                walk.push_back({use, true, use_from(model_, use)});
+        }
+        // If the sequence of rim edges at the end of the chain continues at its start, both are one item.
+        if (walk.size() > 1 && walk.front().rim && walk.back().rim && !ends_.contains(walk.front().from)) {
+            walk.front() = walk.back();
+            walk.pop_back();
+        }
+        for (std::size_t i = 0; i < walk.size(); ++i) {
+            if (!walk[i].rim) at_use_[walk[i].use] = {walks_.size(), i};
+            if (walk[i].rim && walk.size() == 1) {
+                for (const EdgeUse& use : chain) at_rim_[use.edge] = walks_.size();
+            }
+            if (!place_.try_emplace({walk[i].from, face}, std::pair(walks_.size(), i)).second &&
+                ends_.contains(walk[i].from))
+                return false;
+        }
+        walks_.push_back(std::move(walk));
+        face_.push_back(face);
         return true;
     }
 
