@@ -71,6 +71,32 @@ do
   check.that(math.abs(volume / (math.pi * 1600 * 80) - 1) < 0.02, tostring(volume))
 end
 
+-- A stepped shaft with a fillet at its shoulder, longer than its sleeve: no single sweep fills the room, so it
+-- is cut at the shoulder. The faces are those of the room, or its walls.
+do
+  local model = solids("stepped", [[
+Cylinder(1) = {0,0,-30, 0,0,70, 20};  Cylinder(2) = {0,0,40, 0,0,70, 15};
+BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+c[] = Unique(Abs(Boundary{ Surface{ Abs(Boundary{ Volume{3}; }) }; }));
+For i In {0 : #c[]-1}
+  b[] = BoundingBox Curve{c[i]};
+  If (Abs(b[2] - 40) < 0.1 && Abs(b[5] - 40) < 0.1 && b[3] < 16)
+    Fillet{3}{c[i]}{2}
+  EndIf
+EndFor
+Cylinder(4) = {0,0,0, 0,0,80, 31};  Cylinder(5) = {0,0,0, 0,0,80, 25};
+BooleanDifference(6) = { Volume{4}; Delete; }{ Volume{5}; Delete; };]])
+  local faces = { model:face { kind = "torus" }, model:face { kind = "plane", near = { 0, 18.5, 40 } } }
+  for _, r in ipairs { 15, 20, 25 } do
+    faces[#faces + 1] = model:face { kind = "cylinder", radius = { r - 0.1, r + 0.1 } }
+  end
+  for _, name in ipairs { "faces", "walls" } do
+    local quality = model:open_volume { [name] = faces }:sweep({ size = 3 }):quality()
+    check.that(math.abs(quality.volume / 78456.5 - 1) < 0.02, name .. ": " .. quality.volume)
+    check.that(quality.min_scaled_jacobian > 0.3, name)
+  end
+end
+
 -- Films thinner than the sag of their facets, on one axis and off it, also at the void rings that end them.
 for _, off in ipairs { 0, 0.05, 0.08 } do
   local model = solids("film", ([[

@@ -152,7 +152,7 @@ std::optional<Trimmed> trim(const Model& model, const std::vector<FaceId>& faces
     return result;
 }
 
-std::optional<Overhang> find_overhang(const Model& model, const std::vector<FaceId>& faces, bool open_parts)
+std::optional<Overhang> find_overhang(const Model& model, const std::vector<FaceId>& faces)
 {
     const std::vector<std::vector<FaceId>> parts = connected_parts(model, faces);
     if (parts.size() < 2) return std::nullopt;
@@ -165,17 +165,27 @@ std::optional<Overhang> find_overhang(const Model& model, const std::vector<Face
             const std::vector<Vec3> loop = loop_places(model, rim.uses);
             const auto plane = plane_of_end(model, around, loop);
             if (!plane) continue;
-            for (std::size_t p = 0; p < parts.size(); ++p) {
-                const std::vector<FaceId>& part = parts[p];
-                if (!open_parts && !rims(model, part).empty()) continue;
+            const auto crosses = [&](std::size_t p) {
                 const double middle = geometry::height(*plane, boxes[p].center());
                 const double reach = plane->normal.cwiseAbs().dot(boxes[p].sizes()) / 2;
-                if (middle + reach <= model.tolerance || middle - reach >= -model.tolerance) continue;
-                const Range range = heights(model, part, *plane);
-                if (range.low < -model.tolerance && range.high > model.tolerance && &part != &around &&
-                    !crosses_quads(model, part, *plane) && crosses_inside(model, part, *plane, loop))
-                    return Overhang{*plane, part, face_beside(model, around, rim)};
+                if (middle + reach <= model.tolerance || middle - reach >= -model.tolerance) return false;
+                const Range range = heights(model, parts[p], *plane);
+                return range.low < -model.tolerance && range.high > model.tolerance;
+            };
+            const std::vector<FaceId>* first = nullptr;
+            bool continues = false; // whether a part lies in front of the plane
+            for (std::size_t p = 0; p < parts.size() && !continues; ++p) {
+                if (&parts[p] == &around) continue;
+                if (crosses(p))
+                    first = first == nullptr && !crosses_quads(model, parts[p], *plane) &&
+                                    crosses_inside(model, parts[p], *plane, loop)
+                                ? &parts[p]
+                                : first;
+                else
+                    continues = geometry::height(*plane, boxes[p].center()) > model.tolerance;
             }
+            if (first != nullptr && !continues)
+                return Overhang{*plane, *first, face_beside(model, around, rim)};
         }
     return std::nullopt;
 }

@@ -298,14 +298,13 @@ std::optional<Opening> filled_to_level(const Model& model, const RoleRequest& re
     return opening;
 }
 
-/// Cut off the parts of faces that stick out of a flat rim of other faces. Without roles, only closed parts
-/// are cut: where a part is open, faces at a step may be missing instead.
+/// Cut off the parts of faces that stick out of a flat rim of other faces.
 Opening without_overhangs(Opening opening, const RunContext& context)
 {
     while (true) {
         const Model& model = opening.model;
         const std::vector<FaceId> named = named_faces(model, opening.request);
-        const auto found = closure::find_overhang(model, named, opening.request.roles.has_value());
+        const auto found = closure::find_overhang(model, named);
         auto trimmed = found ? closure::trim(model, named, found->faces, found->plane, context)
                              : std::nullopt;
         if (!trimmed) return opening;

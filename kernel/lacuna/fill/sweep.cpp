@@ -311,6 +311,14 @@ std::vector<std::string>& report_of(Filled& filled)
     return std::get<FilledVolume>(filled.mesh).swept.report;
 }
 
+bool has_given_ends(const topology::OpenVolume& volume)
+{
+    return std::ranges::any_of(topology::all_faces(volume.model), [&](FaceId face) {
+        return volume.role[face.index()] != topology::Role::wall &&
+               volume.model[face].origin == topology::Origin::given;
+    });
+}
+
 Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
     if (volume.no_roles) {
@@ -326,8 +334,8 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
     const std::size_t ways = volume.others ? volume.others->ways.size() : 0;
     const bool mixed = asked.options.fallback == sweep::Fallback::mixed;
     if (mixed) request.options.fallback = sweep::Fallback::none;
-    // Roles that the user named are replaced by roles of pieces only if the fallback is `mixed`.
-    const bool may_cut = mixed || volume.roles_found;
+    // Ends that the user named are replaced by ends of pieces only if the fallback is `mixed`.
+    const bool may_cut = mixed || volume.roles_found || !has_given_ends(volume.volume);
     for (std::size_t next = 0;; ++next) {
         const Volume& now = other ? *other : volume;
         const bool pieces = has_pieces(now, context);

@@ -42,10 +42,9 @@ struct Overhang {
 
 /// The first part of a volume's faces that sticks out of a flat rim of another part, such as a shaft that is
 /// longer than its sleeve. The other part lies behind the plane of its rim. Parts with given quads that cross
-/// the plane are none.
-/// @param open_parts  whether parts with free edges count
+/// the plane are none. If a part lies in front of the plane, the volume continues there, and faces at a step
+/// are missing.
 /// @note  O(facets) for each part whose box crosses the plane of a rim.
-std::optional<Overhang> find_overhang(const topology::Model& model, const std::vector<FaceId>& faces,
-                                      bool open_parts);
+std::optional<Overhang> find_overhang(const topology::Model& model, const std::vector<FaceId>& faces);
 
 } // namespace lacuna::closure
