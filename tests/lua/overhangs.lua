@@ -71,8 +71,8 @@ do
   check.that(math.abs(volume / (math.pi * 1600 * 80) - 1) < 0.02, tostring(volume))
 end
 
--- A stepped shaft with a fillet at its shoulder, longer than its sleeve: no single sweep fills the room, so it
--- is cut at the shoulder. The faces are those of the room, or its walls.
+-- A stepped shaft with a fillet at its shoulder, longer than its sleeve: no single sweep fills the room, so
+-- it is cut at the shoulder. The faces are those of the room, or its walls.
 do
   local model = solids("stepped", [[
 Cylinder(1) = {0,0,-30, 0,0,70, 20};  Cylinder(2) = {0,0,40, 0,0,70, 15};
