@@ -305,7 +305,9 @@ Opening without_overhangs(Opening opening, const RunContext& context)
         const Model& model = opening.model;
         const std::vector<FaceId> named = named_faces(model, opening.request);
         const auto found = closure::find_overhang(model, named);
-        auto trimmed = found ? closure::trim(model, named, found->faces, found->plane, context)
+        // Faces that are not named stay: they may be in contact with named ones.
+        auto trimmed = found ? closure::trim(model, topology::all_faces(model), found->faces, found->plane,
+                                             context)
                              : std::nullopt;
         if (!trimmed) return opening;
         std::vector<FaceId> lost = trimmed->cut;

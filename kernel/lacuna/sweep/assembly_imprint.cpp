@@ -118,21 +118,31 @@ public:
     {
     }
 
-    /// Cut the facets along a chain of points near the face. @return  the points of the cut; empty if the
-    /// chain leaves the face
-    std::vector<Index> lay(const std::vector<Vec3>& line)
+    /// Cut the facets along a chain of points near the face. The facets of a bent face are only near its
+    /// surface, so new points are moved to the chain.
+    /// @return  the points of the cut; empty if the chain leaves the face
+    std::vector<Index> lay(const std::vector<Vec3>& line, bool bent)
     {
+        const auto given = static_cast<Index>(model_.points.size());
         std::vector<Index> stops;
+        std::map<Index, Vec3> place; // of new points
         for (std::size_t i = 0; i < line.size(); ++i) {
             const bool is_end = i == 0 || i + 1 == line.size();
             Index stop = is_end ? rim_vertex_at(line[i]) : -1;
             if (stop < 0) stop = point_on_face(model_, face_, line[i]);
             if (stop < 0) return {};
+            if (stop >= given) place.emplace(stop, line[i]);
             if (stops.empty() || stops.back() != stop) stops.push_back(stop);
         }
         std::vector<Index> chain{stops.front()};
         for (std::size_t i = 0; i + 1 < stops.size(); ++i)
             if (!cut_between(stops[i], stops[i + 1], chain)) return {};
+        const std::vector<double> arc = geometry::arc_lengths(line);
+        for (const Index p : chain)
+            if (bent && p >= given && !place.contains(p))
+                place.emplace(p, geometry::point_at(line, arc, closest_on(line, model_.at(p)).at));
+        if (bent)
+            for (const auto& [p, to] : place) model_.points[index(p)] = to;
         return chain;
     }
 
@@ -295,7 +305,7 @@ std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::v
     FaceCutter cutter(model, side.face, within);
     std::vector<SectionWalk> walks;
     for (const std::vector<Vec3>& line : lines) {
-        const std::vector<Index> chain = cutter.lay(line);
+        const std::vector<Index> chain = cutter.lay(line, !flat);
         if (chain.size() < 2) return {};
         SectionWalk& walk = walks.emplace_back();
         for (const Index p : chain) walk.places.push_back({p, -1});
