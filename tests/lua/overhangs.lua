@@ -111,8 +111,12 @@ Cylinder(4) = {%g,0,-20, 0,0,100, 25};]]):format(off))
   check.that(quality.min_scaled_jacobian > 0.3, "film " .. off)
 end
 
--- A body that stands in a pocket, or floats in it, and sticks out of its mouth. No roles are named.
+-- A body that stands in a pocket, or floats in it, and sticks out of its mouth or ends in its plane. No roles
+-- are named.
 for _, body in ipairs {
+  { "Box(9) = {18,13,11.5, 14,14,13.5};", 14 * 14 * 13.5 },
+  { "Box(9) = {18,13,10, 14,14,15};", 14 * 14 * 15 },
+  { "Cylinder(9) = {25,20,12, 0,0,13, 6};", math.pi * 36 * 13 },
   { "Box(9) = {16,12,11.5, 17,17,20};", 17 * 17 * 13.5 },
   { "Box(9) = {16,12,10, 17,17,20};", 17 * 17 * 15 },
   { "Cylinder(9) = {25,20,10, 0,0,30, 6};", math.pi * 36 * 15 },
@@ -125,6 +129,30 @@ BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
   local volume, quality = volume_of(model, { faces = inner }, 2)
   check.that(math.abs(volume / (6000 - body[2]) - 1) < 0.02, body[1] .. volume)
   check.that(quality.min_scaled_jacobian > 0.3, body[1])
+end
+
+-- Tubes in the holes of their sheets: both circles of a hole are exact, their facets differ.
+for n = 1, 2 do
+  local text = [[
+Cylinder(1) = {0,0,0, 0,0,60, 34};  Cylinder(2) = {0,0,10, 0,0,40, 30};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+]]
+  for i = 1, n do
+    local x, turn = 12 * (2 * i - n - 1), 0.3 * i
+    text = text .. ([[
+Cylinder(%d) = {%g,0,-1, 0,0,62, 5};
+BooleanDifference{ Volume{3}; Delete; }{ Volume{%d}; Delete; }
+Cylinder(%d) = {%g,0,0, 0,0,60, 5};  Rotate {{0,0,1},{%g,0,0},%g} { Volume{%d}; }
+]]):format(10 + i, x, 10 + i, 20 + i, x, x, turn, 20 + i)
+  end
+  local model = solids("sheets", text)
+  local inner = model:faces { box = { { -30.1, -30.1, 9.9 }, { 30.1, 30.1, 50.1 } } }
+  for _, tube in ipairs(model:faces { kind = "cylinder", radius = { 4.9, 5.1 } }) do
+    if tube.box[2][3] - tube.box[1][3] > 50 then inner[#inner + 1] = tube end
+  end
+  local volume, quality = volume_of(model, { faces = inner }, 3)
+  check.that(math.abs(volume / (40 * math.pi * (900 - 25 * n)) - 1) < 0.02, n .. " tubes: " .. volume)
+  check.that(quality.min_scaled_jacobian > 0.5, n .. " tubes")
 end
 
 -- Parts that reach into each other, by little or much, are refused by name.

@@ -7,6 +7,7 @@
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -91,6 +92,24 @@ bool crosses_inside(const Model& model, const std::vector<FaceId>& faces, const 
     });
 }
 
+/// The faces of a part that lie in a plane, inside a loop in that plane. Empty if one of them leaves the
+/// loop.
+std::vector<FaceId> faces_inside(const Model& model, const std::vector<FaceId>& part,
+                                 const geometry::Plane& plane, const std::vector<Vec3>& loop)
+{
+    const std::vector<Vec2> around = flat_places(plane, loop);
+    std::vector<FaceId> flush;
+    for (const FaceId face : part) {
+        if (!lies_in_plane(model, face, plane)) continue;
+        if (!std::ranges::all_of(corners_of(model[face]), [&](Index p) {
+                return geometry::lies_inside(around, geometry::to_plane(plane, model.at(p)));
+            }))
+            return {};
+        flush.push_back(face);
+    }
+    return flush;
+}
+
 /// A face of a part beside one of its rims.
 FaceId face_beside(const Model& model, const std::vector<FaceId>& part, const Rim& rim)
 {
@@ -165,27 +184,25 @@ std::optional<Overhang> find_overhang(const Model& model, const std::vector<Face
             const std::vector<Vec3> loop = loop_places(model, rim.uses);
             const auto plane = plane_of_end(model, around, loop);
             if (!plane) continue;
-            const auto crosses = [&](std::size_t p) {
-                const double middle = geometry::height(*plane, boxes[p].center());
-                const double reach = plane->normal.cwiseAbs().dot(boxes[p].sizes()) / 2;
-                if (middle + reach <= model.tolerance || middle - reach >= -model.tolerance) return false;
-                const Range range = heights(model, parts[p], *plane);
-                return range.low < -model.tolerance && range.high > model.tolerance;
-            };
-            const std::vector<FaceId>* first = nullptr;
+            std::optional<std::vector<FaceId>> first;
             bool continues = false; // whether a part lies in front of the plane
             for (std::size_t p = 0; p < parts.size() && !continues; ++p) {
-                if (&parts[p] == &around) continue;
-                if (crosses(p))
-                    first = first == nullptr && !crosses_quads(model, parts[p], *plane) &&
-                                    crosses_inside(model, parts[p], *plane, loop)
-                                ? &parts[p]
-                                : first;
-                else
-                    continues = geometry::height(*plane, boxes[p].center()) > model.tolerance;
+                const std::vector<FaceId>& part = parts[p];
+                const double middle = geometry::height(*plane, boxes[p].center());
+                const double reach = plane->normal.cwiseAbs().dot(boxes[p].sizes()) / 2;
+                if (&part == &around || middle + reach < -model.tolerance) continue;
+                const Range range = heights(model, part, *plane);
+                continues = range.low >= -model.tolerance && range.high > model.tolerance;
+                if (first || range.low >= -model.tolerance || range.high < -model.tolerance) continue;
+                if (range.high <= model.tolerance) {
+                    std::vector<FaceId> flush = faces_inside(model, part, *plane, loop);
+                    if (!flush.empty()) first = std::move(flush);
+                } else if (!crosses_quads(model, part, *plane) && crosses_inside(model, part, *plane, loop)) {
+                    first = part;
+                }
             }
-            if (first != nullptr && !continues)
-                return Overhang{*plane, *first, face_beside(model, around, rim)};
+            if (first && !continues)
+                return Overhang{*plane, std::move(*first), face_beside(model, around, rim)};
         }
     return std::nullopt;
 }

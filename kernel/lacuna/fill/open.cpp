@@ -312,11 +312,17 @@ Opening without_overhangs(Opening opening, const RunContext& context)
         if (!trimmed) return opening;
         std::vector<FaceId> lost = trimmed->cut;
         std::ranges::copy(trimmed->gone, std::back_inserter(lost));
+        const bool flush = trimmed->cut.empty();
         auto shorter = opening_of(opening.request, model, std::move(*trimmed));
         if (!shorter) return opening;
-        log_line(context,
-                 formatted("note: cut off in the plane of the rim of {}, because they stick out of it: {}",
-                           topology::entity_of(model, found->beside), topology::entities_of(model, lost)));
+        const auto beside = topology::entity_of(model, found->beside);
+        const auto what = topology::entities_of(model, lost);
+        log_line(
+            context,
+            flush ? formatted("note: left out, because they lie in the plane of the rim of {}: {}", beside,
+                              what)
+                  : formatted("note: cut off in the plane of the rim of {}, because they stick out of it: {}",
+                              beside, what));
         opening = std::move(*shorter);
     }
 }
