@@ -315,7 +315,7 @@ TEST_CASE("a cap over a bent rim is filled close to its facets")
             if (face.kind == "cylinder") tags.walls.push_back(face.tag);
         REQUIRE(tags.walls.size() == (bore > 0 ? 2 : 1));
         // The rim lies on a round cone as well as on the ball, so that closing asks.
-        const topology::OpenVolume volume = sealed(model, tags, {.take_guess = true});
+        const topology::OpenVolume volume = sealed(model, tags, {.roles_by = closure::RolesBy::finding});
         const cad::WrittenCad written = cad::write_cad(volume, folder.path("out.step"));
         CHECK(written.fitted == 1);
         CHECK(read(folder.path("out.step")).solids == 1);

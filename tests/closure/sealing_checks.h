@@ -45,8 +45,8 @@ inline double closed_volume(closure::Reading reading)
         if (!reading.volume.faces(topology::Role::source).empty() &&
             !reading.volume.faces(topology::Role::target).empty())
             match = matching::match(reading.volume);
-        reading.volume =
-            closure::close(reading.volume, match, {.take_guess = true}).volume; // as readings are closed
+        reading.volume = closure::close(reading.volume, match, {.roles_by = closure::RolesBy::finding})
+                             .volume; // as readings are closed
     }
     CHECK(closure::is_watertight(reading.volume));
     return closure::enclosed_volume(reading.volume);

@@ -120,7 +120,8 @@ TEST_CASE("named roles do not settle how a missing end bends: it is refused unle
             const std::size_t given = named.model.faces.size();
             CHECK(test::refusal([&] { test::seal(named); }, {"beside face "}) == "closure.shape_open");
             CHECK(named.model.faces.size() == given);
-            const closure::CloseOptions guess{.take_guess = true}, flat{.cap = closure::Cap::flat};
+            const closure::CloseOptions guess{.roles_by = closure::RolesBy::finding},
+                flat{.cap = closure::Cap::flat};
             for (const closure::CloseOptions& asked : {guess, flat}) {
                 OpenVolume taken = stack.open();
                 test::seal(taken, asked);
@@ -151,7 +152,7 @@ TEST_CASE("a bent end that named roles leave out is closed where its rim tells i
                     OpenVolume volume = stack.open();
                     const std::string refusal = test::refusal([&] { test::seal(volume); });
                     OpenVolume taken = stack.open();
-                    test::seal(taken, {.take_guess = true});
+                    test::seal(taken, {.roles_by = closure::RolesBy::finding});
                     const double off = closure::enclosed_volume(taken) / stack.facet_volume - 1;
                     CHECK(refusal == (std::abs(off) < 0.02 ? "done" : "closure.shape_open"));
                 }

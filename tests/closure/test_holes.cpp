@@ -133,7 +133,7 @@ TEST_CASE("a guess takes holes of a given end through, which is told where it ma
                                         .drop = test::holes_and_target});
         CAPTURE(radius);
         OpenVolume volume = prism.open();
-        const closure::Closure made = test::seal(volume, {.take_guess = true});
+        const closure::Closure made = test::seal(volume, {.roles_by = closure::RolesBy::finding});
         CHECK(closure::enclosed_volume(volume) == doctest::Approx(prism.facet_volume).epsilon(1e-6));
         CHECK(made.assumptions.size() == (radius * radius > 0.02 ? 1 : 0));
     }

@@ -297,15 +297,17 @@ TEST_CASE("what closing gives does not depend on who asks: a host, a recipe, or 
                 } catch (const InvalidInput&) {
                     continue;
                 }
-                const auto [named, closure] = closure::close(prism.open(), {}, {.take_guess = true});
+                const auto [named, closure] = closure::close(prism.open(), {},
+                                                             {.roles_by = closure::RolesBy::finding});
                 CHECK(closure.value == VolumeClass::IV);
                 // Of the taper nothing tells where a moved end is not known to shrink.
                 if (found->classification.value != VolumeClass::IV) continue;
                 ++compared;
                 CHECK(closure::enclosed_volume(named) == doctest::Approx(found->enclosed).epsilon(1e-9));
                 if (!found->sealed) continue;
-                const OpenVolume again =
-                    closure::close(found->volume, found->sealed->match, {.take_guess = true}).volume;
+                const OpenVolume again = closure::close(found->volume, found->sealed->match,
+                                                        {.roles_by = closure::RolesBy::finding})
+                                             .volume;
                 CHECK(closure::enclosed_volume(again) ==
                       doctest::Approx(closure::enclosed_volume(found->sealed->volume)).epsilon(1e-12));
             }

@@ -229,7 +229,8 @@ OpenVolume sealed_stress_volume(const StressMember& member)
 {
     OpenVolume volume = stress_volume(member);
     const bool ends = !volume.faces(Role::source).empty() && !volume.faces(Role::target).empty();
-    volume = closure::close(volume, ends ? matching::match(volume) : matching::Match{}, {.take_guess = true})
+    volume = closure::close(volume, ends ? matching::match(volume) : matching::Match{},
+                            {.roles_by = closure::RolesBy::finding})
                  .volume;
     return volume;
 }

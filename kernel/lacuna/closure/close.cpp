@@ -295,11 +295,10 @@ private:
                           "the walls beside the missing target stop below it and are continued by flat faces "
                           "that meet in straight edges"},
                          closure);
-        const RolesBy by = options_.take_guess ? RolesBy::finding : RolesBy::person;
-        note_open_rims(sealed, by, closure);
-        note_joined_rims(sealed, by, closure);
+        note_open_rims(sealed, options_.roles_by, closure);
+        note_joined_rims(sealed, options_.roles_by, closure);
         if (asks_for_shape(options_)) closure.assumptions.clear();
-        note_closed_holes(volume_.model, all_faces(volume_.model), sealed, by, closure);
+        note_closed_holes(volume_.model, all_faces(volume_.model), sealed, options_.roles_by, closure);
     }
 
     Closed seal_as(const Way& way, const matching::Match& match) const
@@ -379,22 +378,13 @@ bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 /// @throw NotClosed  the sealed shape is ambiguous, and no option asks for it.
 void refuse_guess(const Closed& closed, const CloseOptions& options)
 {
-    if (options.take_guess || asks_for_shape(options)) return;
+    if (options.roles_by == RolesBy::finding || asks_for_shape(options)) return;
     std::optional<Message> guess = guess_of_bent(closed.volume, closed.closure, RolesBy::person);
     if (!guess) return;
     throw NotClosed(std::move(*guess).remedy(
         "give the face, choose close{{ cap = … }} or close{{ edge_shape = … }}, or accept the assumed shape, "
         "which encloses {:.4g}, with open_volume{{ …, reading = 1 }}",
         enclosed_volume(closed.volume)));
-}
-
-/// Seal a volume of class `value`, and refuse the result if its shape is ambiguous.
-Closed seal(const OpenVolume& volume, const matching::Match& match, VolumeClass value, const Asked& options,
-            const RunContext& context)
-{
-    Closed closed = Sealer(volume, match.side_lines, value, options, context).seal(match);
-    refuse_guess(closed, options);
-    return closed;
 }
 
 bool lacks_walls(const OpenVolume& volume)
@@ -413,13 +403,8 @@ std::optional<Closed> seal_as_source_tells(const OpenVolume& volume, const Close
     OpenVolume open = volume;
     open.override_class.reset(); // with the moved end it is of class II or III
     auto moved = move_source(open, context);
-    if (!moved) return std::nullopt;
-    refuse_guess(*moved, options);
-    moved->volume.override_class = volume.override_class;
-    Closure& closure = moved->closure;
-    closure.value = VolumeClass::IV;
-    closure.algorithms.insert(closure.algorithms.begin(), "Algorithm 10");
-    return std::move(*moved);
+    if (moved) moved->closure.algorithms.insert(moved->closure.algorithms.begin(), "Algorithm 10");
+    return moved;
 }
 
 /// The match of the ends, including the user's void edges.
@@ -428,45 +413,6 @@ matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options
     matching::MatchOptions by_hand;
     by_hand.vertices = pairs_by_hand(volume, options);
     return matching::match(volume, by_hand, context);
-}
-
-/// Close a volume. Holes without walls in its ends are extended to the other end, unless the caller covered
-/// them.
-/// @param whole  the class of `volume`
-Closed close_rest(const OpenVolume& volume, const matching::Match& match, VolumeClass whole,
-                  const Asked& options, const RunContext& context)
-{
-    // Not for close_trial(): find_readings() moves ends itself.
-    if (whole == VolumeClass::IV && !options.trial && lacks_walls(volume)) {
-        if (auto closed = seal_as_source_tells(volume, options, context)) return std::move(*closed);
-    }
-    if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);
-    OpenVolume lent = volume;
-    const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
-    if (stubs.empty() || climbs_open_rims(volume, match)) return seal(volume, match, whole, options, context);
-
-    // The middle of the volume is missing. The walls at each end count as a part of the end, so the free rims
-    // of these walls are matched with each other.
-    lent.override_class.reset();
-    Closed closed = seal(lent, match_ends(lent, options, context), classify(lent).value, options, context);
-    closed.closure.value = whole;
-    for (const FaceId stub : stubs) closed.volume.role[stub.index()] = Role::wall;
-    closed.volume.override_class = volume.override_class;
-    return closed;
-}
-
-/// Seal a volume after covering the holes of its given ends.
-Closed close_covered(const OpenVolume& volume, const std::vector<EndHole>& holes, VolumeClass whole,
-                     const Asked& options, const RunContext& context)
-{
-    OpenVolume covered = volume;
-    const std::vector<FaceId> covers = cover_holes(covered, holes, context);
-    const matching::Match match = has_two_ends(whole) ? match_ends(covered, options, context)
-                                                      : matching::Match{};
-    Closed closed = close_rest(covered, match, classify(covered).value, options, context);
-    closed.closure.value = whole;
-    closed.closure.void_faces.insert(closed.closure.void_faces.begin(), covers.begin(), covers.end());
-    return closed;
 }
 
 std::string number_of(const std::vector<EndHole>& holes)
@@ -500,23 +446,53 @@ Closed close_as_asked(const OpenVolume& volume, const matching::Match& match, co
     const std::vector<EndHole> holes = holes_without_walls(volume);
     check_options(volume, whole, holes, options);
     if (whole == VolumeClass::V && !options.trial) check_tubes(volume, context);
-    if (options.holes == Holes::cover) return close_covered(volume, holes, whole, options, context);
     std::optional<HoleVolumes> volumes; // set if it is ambiguous whether holes are covered or extended
     if (whole == VolumeClass::IV && !holes.empty() && options.holes == Holes::automatic && !options.trial)
         volumes = hole_volumes(volume, options, context);
-    if (volumes && !options.take_guess && (volumes->covered || volumes->through))
+    if (volumes && options.roles_by == RolesBy::person && (volumes->covered || volumes->through))
         throw NotClosed(holes_message(volume.model, holes, *volumes));
-    Closed closed = close_rest(volume, match, whole, options, context);
+
+    OpenVolume open = volume;
+    matching::Match ends = match;
+    VolumeClass value = whole;
+    std::vector<FaceId> covers, stubs;
+    if (options.holes == Holes::cover) {
+        covers = cover_holes(open, holes, context);
+        ends = has_two_ends(whole) ? match_ends(open, options, context) : matching::Match{};
+        value = classify(open).value;
+    }
+    std::optional<Closed> closed;
+    // Not for close_trial(): find_readings() moves ends itself.
+    if (value == VolumeClass::IV && !options.trial && lacks_walls(open))
+        closed = seal_as_source_tells(open, options, context);
+    // If the middle of the volume is missing, the walls at each end count as a part of the end, so the free
+    // rims of these walls are matched with each other.
+    OpenVolume lent = open;
+    if (!closed && has_two_ends(value)) stubs = lend_stubs_to_ends(lent);
+    if (!stubs.empty() && climbs_open_rims(open, ends)) stubs.clear();
+    if (!stubs.empty()) {
+        open = std::move(lent);
+        open.override_class.reset();
+        ends = match_ends(open, options, context);
+        value = classify(open).value;
+    }
+    if (!closed) closed = Sealer(open, ends.side_lines, value, options, context).seal(ends);
+    refuse_guess(*closed, options);
+
+    closed->closure.value = whole;
+    closed->closure.void_faces.insert(closed->closure.void_faces.begin(), covers.begin(), covers.end());
+    closed->volume.override_class = volume.override_class;
+    for (const FaceId stub : stubs) closed->volume.role[stub.index()] = Role::wall;
     if (volumes)
-        assume(closed.closure,
+        assume(closed->closure,
                {"closure.hole_through",
                 "{} has {} without walls, extended to the missing end here; close{{ holes = \"cover\" }} {}",
                 entity_of(volume.model, holes.front().face), number_of(holes),
                 volumes->covered ? formatted("encloses {:.7g} instead of {:.7g}", *volumes->covered,
-                                             enclosed_volume(closed.volume))
+                                             enclosed_volume(closed->volume))
                                  : "is not possible"},
-               share_between(enclosed_volume(closed.volume), volumes->covered));
-    return closed;
+               share_between(enclosed_volume(closed->volume), volumes->covered));
+    return std::move(*closed);
 }
 
 /// Note which walls were made part of an end by extend_smooth_ends().
@@ -560,7 +536,7 @@ Closed close(const OpenVolume& volume, const matching::Match& match, const Close
 
 Closed close_trial(const OpenVolume& volume, const matching::Match& match, const RunContext& context)
 {
-    return close_as_asked(volume, match, {{.take_guess = true}, true}, context);
+    return close_as_asked(volume, match, {{.roles_by = RolesBy::finding}, true}, context);
 }
 
 void log_notes(const Closure& closure, const RunContext& context)

@@ -78,12 +78,16 @@ struct VoidEdge {
                               ///< is straight
 };
 
+/// Whether the user or the program chose the roles of the faces. The user chooses among the readings of the
+/// program, so an ambiguous closing is accepted there; with the user's own roles it is an error.
+enum class RolesBy { person, finding };
+
 struct CloseOptions {
     EdgeShape edge_shape = EdgeShape::automatic;
     std::vector<VoidEdge> void_edges{}; ///< given by the user; the match adds the others
     Cap cap = Cap::automatic;
     Holes holes = Holes::automatic;
-    bool take_guess = false; ///< accept an ambiguous closing; implied by an explicit shape option
+    RolesBy roles_by = RolesBy::person;
 };
 
 /// The path along which a source alone is swept (class 0).
@@ -170,10 +174,10 @@ struct Closed {
 /// partner, a void edge joins the end of these wall edges to the partner.
 /// @param match  the match of source and target; ignored for classes IV and V, which lack an end.
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, the reason, and a shape or
-///         direction that would seal it. "closure.shape_open": the shape of the missing faces is ambiguous
-///         and neither a shape nor `take_guess` was given; names the adjacent faces. "closure.holes_open": an
-///         end is missing and the given one has holes without walls; reports the volume with the holes
-///         covered and the volume with the holes extended to the other end.
+///         direction that would seal it. "closure.shape_open": the user chose the roles, the shape of the
+///         missing faces is ambiguous, and no shape was given; names the adjacent faces.
+///         "closure.holes_open": an end is missing and the given one has holes without walls; reports the
+///         volume with the holes covered and the volume with the holes extended to the other end.
 /// @throw InvalidInput  a user's void edge is impossible (names its vertices), or an option does not apply to
 ///         the volume.
 /// @throw Cancelled

@@ -73,7 +73,7 @@ HoleVolumes hole_volumes(const OpenVolume& volume, const CloseOptions& options, 
     const auto encloses = [&](Holes holes) {
         CloseOptions asked = options;
         asked.holes = holes;
-        asked.take_guess = true;
+        asked.roles_by = RolesBy::finding;
         return unless_refused([&] { return enclosed_volume(close(volume, {}, asked, quiet).volume); });
     };
     return {encloses(Holes::cover), encloses(Holes::through)};

@@ -177,15 +177,15 @@ void check_tubes(const OpenVolume& volume, const RunContext& context)
     throw NotClosed(std::move(message).remedy("name the source or the target, or add the missing walls"));
 }
 
-std::optional<Reading> read_walls_alone(const Model& model, const std::vector<FaceId>& walls, bool take_guess,
-                                        const RunContext& context)
+std::optional<Reading> read_walls_alone(const Model& model, const std::vector<FaceId>& walls,
+                                        bool accept_ambiguous, const RunContext& context)
 {
     const OpenVolume open = open_volume(model, {{}, {}, walls}, context);
     if (no_tube(open).empty() || free_edges(open).empty() || crossing_of_bores(open.model).valid() ||
         has_branches(open, context))
         return std::nullopt;
     std::vector<Reading> readings = find_readings(model, walls, context);
-    if (readings.size() != 1 || readings.front().no_roles || !(take_guess || !readings.front().guess))
+    if (readings.size() != 1 || readings.front().no_roles || !(accept_ambiguous || !readings.front().guess))
         return std::nullopt;
     const RoleCandidate& roles = readings.front().roles;
     log_line(context,

@@ -423,7 +423,7 @@ void set_ends_along(OpenVolume& volume, const Vec3& axis)
         const double along = face_area_vector(volume.model, face).dot(axis);
         const bool is_end = std::abs(along) >
                                 std::cos(kCreaseAngle * kDegree) * face_area(volume.model, face) ||
-                            is_smooth_cap(volume.model, face, axis);
+                            is_end_with_walls(volume.model, face, axis);
         volume.role[face.index()] = !is_end ? Role::wall : along > 0 ? Role::target : Role::source;
     }
 }

@@ -271,7 +271,7 @@ void join_rounds(OpenVolume& volume, const RunContext& context)
 
 } // namespace
 
-bool is_smooth_cap(const Model& model, FaceId face, const Vec3& axis)
+bool is_end_with_walls(const Model& model, FaceId face, const Vec3& axis)
 {
     constexpr double kUpright = 0.17; // cosine of 80 degrees: walls taper by up to 10
     const Vec3 net = face_area_vector(model, face);

@@ -315,7 +315,7 @@ bool has_round_steps(const OpenVolume& volume, const RunContext& context)
         const std::vector<FaceId> faces = volume.faces(end);
         const Vec3 out = area_vector_of(volume.model, faces).stableNormalized();
         return std::ranges::any_of(faces,
-                                   [&](FaceId face) { return is_smooth_cap(volume.model, face, out); });
+                                   [&](FaceId face) { return is_end_with_walls(volume.model, face, out); });
     };
     if (!has_cap(Role::source) && !has_cap(Role::target)) return false;
     OpenVolume divided = volume;

@@ -220,6 +220,169 @@ Eigen::AlignedBox3d box_of(const FilledParts& mesh)
     return {box.min() - slack, box.max() + slack};
 }
 
+/// The copies of a mesh, and what they share.
+struct Copies {
+    std::vector<Eigen::Affine3d> moves; ///< of each copy; the first is the mesh itself
+    std::vector<InCommon> common;       ///< at k: nodes and sides that copies share if they are k steps apart
+    std::vector<std::string> gaps;      ///< notes about copies that nearly touch
+};
+
+Copies find_copies(const FilledParts& mesh, const Eigen::Affine3d& step, std::size_t count,
+                   const RunContext& context)
+{
+    Copies copies{{Eigen::Affine3d::Identity()}, std::vector<InCommon>(count), {}};
+    const Eigen::AlignedBox3d box = box_of(mesh);
+    std::optional<Skin> skin;
+    for (std::size_t k = 1; k < count; ++k) {
+        check_cancelled(context);
+        const Eigen::Affine3d by = step * copies.moves.back();
+        copies.moves.push_back(by);
+        if (!box.intersects(box.transformed(by))) continue;
+        if (!skin) skin.emplace(mesh);
+        const auto near = check_volumes(mesh, moved(mesh, by), static_cast<int>(k), context);
+        copies.common[k] = in_common(*skin, by, box.diagonal().norm(), context);
+        if (near.empty() || !copies.common[k].nodes.empty()) continue;
+        copies.gaps.push_back(
+            formatted("note: pattern: copies come within {:.3g} of each other and share no nodes "
+                      "there; correct the motion to join them",
+                      near.front().least));
+        log_line(context, copies.gaps.back());
+    }
+    return copies;
+}
+
+/// Adds the copies of a mesh one by one. A copy takes the nodes that it shares with earlier copies from them.
+class PatternMaker {
+public:
+    PatternMaker(FilledParts mesh, Copies copies, bool numbered)
+        : mesh_(std::move(mesh)),
+          copies_(std::move(copies)),
+          numbered_(numbered),
+          parts_(mesh_.regions.size()),
+          nodes_(parts_),
+          all_(moved(mesh_, copies_.moves.front()))
+    {
+        for (std::size_t p = 0; p < parts_; ++p) {
+            mesh::HexMesh& part = mesh_.swept.parts[p].mesh;
+            if (part.order() == 1)
+                nodes_[p] = std::make_shared<const std::vector<Vec3>>(std::exchange(part.nodes, {}));
+        }
+        whole().shared.clear();
+        whole().parts.resize(copies_.moves.size() * parts_);
+        whole().numbering.clear();
+    }
+
+    FilledParts run(const RunContext& context)
+    {
+        for (std::size_t k = 0; k < copies_.moves.size(); ++k) {
+            check_cancelled(context);
+            add_parts(k);
+            Known known = share(k);
+            if (k > 0) place_nodes(k, std::move(known.places));
+            number_nodes(k, std::move(known.numbers));
+        }
+        whole().nodes = index(next_);
+        whole().report.insert(whole().report.end(), copies_.gaps.begin(), copies_.gaps.end());
+        whole().report.push_back(
+            formatted("pattern: {} copies, {} nodes joined", copies_.moves.size(), joined_));
+        return std::move(all_);
+    }
+
+private:
+    /// For each part of a copy, its nodes that earlier copies already have.
+    struct Known {
+        std::vector<std::vector<std::pair<Index, Index>>> numbers; ///< in the whole mesh
+        std::vector<std::vector<std::pair<Index, Vec3>>> places;
+    };
+
+    sweep::SweptAssembly& whole() { return all_.swept; }
+    sweep::Swept& part_of(std::size_t k, std::size_t p) { return whole().parts[k * parts_ + p]; }
+
+    void add_parts(std::size_t k)
+    {
+        for (std::size_t p = 0; p < parts_; ++p) {
+            sweep::Swept& part = part_of(k, p);
+            if (k > 0) {
+                part = mesh_.swept.parts[p];
+                part.report.clear();
+                move(part, copies_.moves[k]);
+                all_.regions.push_back(mesh_.regions[p]);
+                all_.materials.push_back(mesh_.materials[p]);
+            }
+            for (io::ColumnSet columns : mesh_.columns) {
+                if (k == 0 || columns.part != p) continue;
+                columns.part = k * parts_ + p;
+                all_.columns.push_back(std::move(columns));
+            }
+            if (!numbered_) continue;
+            std::string& region = all_.regions[k * parts_ + p];
+            region = formatted("{}_{}", mesh_.regions[p], k + 1);
+            part.mesh.volume_groups.insert(part.mesh.volume_groups.begin(), region);
+        }
+    }
+
+    /// Make the sides that a copy shares with earlier copies inner ones.
+    Known share(std::size_t k)
+    {
+        Known known{std::vector<std::vector<std::pair<Index, Index>>>(parts_),
+                    std::vector<std::vector<std::pair<Index, Vec3>>>(parts_)};
+        for (std::size_t d = 1; d <= k; ++d) {
+            const InCommon& common = copies_.common[d];
+            for (const auto& [own, there] : common.nodes) {
+                const std::size_t before = (k - d) * parts_ + there.part;
+                known.numbers[own.part].emplace_back(own.number, whole().numbering[before].of(there.number));
+                known.places[own.part].emplace_back(own.number, whole().parts[before].skin()[there.number]);
+            }
+            make_inner(whole().parts, k * parts_, common.of_copy);
+            make_inner(whole().parts, (k - d) * parts_, common.of_mesh);
+        }
+        return known;
+    }
+
+    void place_nodes(std::size_t k, std::vector<std::vector<std::pair<Index, Vec3>>> places)
+    {
+        for (std::size_t p = 0; p < parts_; ++p) {
+            sweep::Swept& part = part_of(k, p);
+            std::ranges::stable_sort(places[p], {}, &std::pair<Index, Vec3>::first);
+            const auto again = std::ranges::unique(places[p], {}, &std::pair<Index, Vec3>::first);
+            places[p].erase(again.begin(), again.end());
+            if (nodes_[p])
+                part.layers = copied_nodes(nodes_[p], index(part.mesh.nodes_per_layer), copies_.moves[k],
+                                           std::move(places[p]));
+            else
+                for (const auto& [node, there] : places[p]) place(part.mesh, node) = there;
+        }
+    }
+
+    void number_nodes(std::size_t k, std::vector<std::vector<std::pair<Index, Index>>> known)
+    {
+        for (std::size_t p = 0; p < parts_; ++p) {
+            for (const auto& [own, number] : mesh_.swept.numbering[p].known()) {
+                const OfPart first = owner(mesh_.swept.numbering, number);
+                known[p].emplace_back(own, whole().numbering[k * parts_ + first.part].of(first.number));
+            }
+            std::ranges::sort(known[p]);
+            const auto again = std::ranges::unique(known[p], {}, &std::pair<Index, Index>::first);
+            known[p].erase(again.begin(), again.end());
+            joined_ += k > 0 ? known[p].size() - mesh_.swept.numbering[p].known().size() : 0;
+            const mesh::HexMesh& part = mesh_.swept.parts[p].mesh;
+            whole().numbering.emplace_back(next_, std::move(known[p]),
+                                           mesh::corner_count(part) + mesh::middle_count(part));
+            next_ += static_cast<Index>(whole().numbering.back().fresh());
+        }
+    }
+
+    FilledParts mesh_;
+    Copies copies_;
+    bool numbered_; ///< whether the regions of the copies get numbers
+    std::size_t parts_;
+    /// For each part of order 1, the nodes of the first mesh. Its copies compute their nodes from these.
+    std::vector<std::shared_ptr<const std::vector<Vec3>>> nodes_;
+    FilledParts all_;
+    Index next_ = 0;
+    std::size_t joined_ = 0;
+};
+
 } // namespace
 
 FilledParts as_parts(const FilledVolume& mesh)
@@ -274,104 +437,9 @@ FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const Pattern
         throw InvalidInput(Message("fill.split_member", "a mesh that was split cannot be copied in a pattern")
                                .remedy("make the pattern first, and split it"));
     hold_nodes(mesh, context);
-    const std::size_t parts = mesh.regions.size();
-    const auto count = static_cast<std::size_t>(options.count);
     report_progress(context, "copies");
-    const Eigen::AlignedBox3d box = box_of(mesh);
-    std::vector<Eigen::Affine3d> moves{Eigen::Affine3d::Identity()};
-    std::vector<InCommon> common(count); // at k: nodes and sides that copies share if they are k steps apart
-    std::optional<Skin> skin;
-    std::vector<std::string> gaps;
-    for (std::size_t k = 1; k < count; ++k) {
-        check_cancelled(context);
-        moves.push_back(step * moves.back());
-        if (!box.intersects(box.transformed(moves[k]))) continue;
-        if (!skin) skin.emplace(mesh);
-        const auto near = check_volumes(mesh, moved(mesh, moves[k]), static_cast<int>(k), context);
-        common[k] = in_common(*skin, moves[k], box.diagonal().norm(), context);
-        if (near.empty() || !common[k].nodes.empty()) continue;
-        gaps.push_back(formatted("note: pattern: copies come within {:.3g} of each other and share no nodes "
-                                 "there; correct the motion to join them",
-                                 near.front().least));
-        log_line(context, gaps.back());
-    }
-    skin.reset();
-    FilledParts all = moved(mesh, moves[0]);
-    sweep::SweptAssembly& whole = all.swept;
-    // For each part, the nodes of the first mesh. Copies of order 1 compute their nodes from these on demand.
-    std::vector<std::shared_ptr<const std::vector<Vec3>>> nodes(parts);
-    for (std::size_t p = 0; p < parts; ++p) {
-        mesh::HexMesh& part = mesh.swept.parts[p].mesh;
-        if (part.order() == 1)
-            nodes[p] = std::make_shared<const std::vector<Vec3>>(std::exchange(part.nodes, {}));
-    }
-    whole.shared.clear();
-    whole.parts.resize(count * parts);
-    whole.numbering.clear();
-    Index next = 0;
-    std::size_t joined = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        check_cancelled(context);
-        std::vector<std::vector<std::pair<Index, Index>>> known(parts);
-        std::vector<std::vector<std::pair<Index, Vec3>>> places(parts); ///< places of the nodes in `known`
-        for (std::size_t p = 0; p < parts; ++p) {
-            sweep::Swept& part = whole.parts[k * parts + p];
-            if (k > 0) {
-                part = mesh.swept.parts[p];
-                part.report.clear();
-                move(part, moves[k]);
-                all.regions.push_back(mesh.regions[p]);
-                all.materials.push_back(mesh.materials[p]);
-            }
-            for (io::ColumnSet columns : mesh.columns) {
-                if (k == 0 || columns.part != p) continue;
-                columns.part = k * parts + p;
-                all.columns.push_back(std::move(columns));
-            }
-            if (!options.numbered) continue;
-            std::string& region = all.regions[k * parts + p];
-            region = formatted("{}_{}", mesh.regions[p], k + 1);
-            part.mesh.volume_groups.insert(part.mesh.volume_groups.begin(), region);
-        }
-        for (std::size_t d = 1; d <= k; ++d) {
-            for (const auto& [own, there] : common[d].nodes) {
-                const std::size_t before = (k - d) * parts + there.part;
-                known[own.part].emplace_back(own.number, whole.numbering[before].of(there.number));
-                places[own.part].emplace_back(own.number, whole.parts[before].skin()[there.number]);
-            }
-            make_inner(whole.parts, k * parts, common[d].of_copy);
-            make_inner(whole.parts, (k - d) * parts, common[d].of_mesh);
-        }
-        for (std::size_t p = 0; k > 0 && p < parts; ++p) {
-            sweep::Swept& part = whole.parts[k * parts + p];
-            std::ranges::stable_sort(places[p], {}, &std::pair<Index, Vec3>::first);
-            const auto again = std::ranges::unique(places[p], {}, &std::pair<Index, Vec3>::first);
-            places[p].erase(again.begin(), again.end());
-            if (nodes[p])
-                part.layers = copied_nodes(nodes[p], index(part.mesh.nodes_per_layer), moves[k],
-                                           std::move(places[p]));
-            else
-                for (const auto& [node, there] : places[p]) place(part.mesh, node) = there;
-        }
-        for (std::size_t p = 0; p < parts; ++p) {
-            for (const auto& [own, number] : mesh.swept.numbering[p].known()) {
-                const OfPart first = owner(mesh.swept.numbering, number);
-                known[p].emplace_back(own, whole.numbering[k * parts + first.part].of(first.number));
-            }
-            std::ranges::sort(known[p]);
-            const auto again = std::ranges::unique(known[p], {}, &std::pair<Index, Index>::first);
-            known[p].erase(again.begin(), again.end());
-            joined += k > 0 ? known[p].size() - mesh.swept.numbering[p].known().size() : 0;
-            const mesh::HexMesh& part = mesh.swept.parts[p].mesh;
-            whole.numbering.emplace_back(next, std::move(known[p]),
-                                         mesh::corner_count(part) + mesh::middle_count(part));
-            next += static_cast<Index>(whole.numbering.back().fresh());
-        }
-    }
-    whole.nodes = index(next);
-    whole.report.insert(whole.report.end(), gaps.begin(), gaps.end());
-    whole.report.push_back(formatted("pattern: {} copies, {} nodes joined", count, joined));
-    return all;
+    Copies copies = find_copies(mesh, step, static_cast<std::size_t>(options.count), context);
+    return PatternMaker(std::move(mesh), std::move(copies), options.numbered).run(context);
 }
 
 } // namespace lacuna::fill

@@ -232,7 +232,7 @@ Volume part_behind(const Volume& volume, const geometry::Plane& plane, const Run
 void take(closure::Reading found, Volume& volume)
 {
     volume.volume = std::move(found.volume);
-    volume.take_guess = !found.holed.valid();
+    if (!found.holed.valid()) volume.roles_by = closure::RolesBy::finding;
     volume.role_reasons = std::move(found.roles.reasons);
     volume.classification = std::move(found.classification);
     volume.closure = std::move(found.closure);
@@ -387,7 +387,8 @@ Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext
             formatted("note: the body of {} lies inside the volume, and the mesh goes through it; name its "
                       "faces too if the mesh should leave it out",
                       topology::entity_of(whole, face)));
-    if (request.reading > 0 || (request.full_turn && !request.roles)) volume.take_guess = true;
+    if (request.reading > 0 || (request.full_turn && !request.roles))
+        volume.roles_by = closure::RolesBy::finding;
     volume.name = request.name;
     volume.material = request.material;
     volume.glued = request.glued;

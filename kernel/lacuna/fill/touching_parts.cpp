@@ -394,29 +394,10 @@ std::optional<JoinedParts> leave_out_shared_faces(const Model& model, const std:
 
 void add_model(ModelBuilder& builder, const Model& more)
 {
-    const auto points = static_cast<Index>(builder.points.size());
-    const std::size_t vertices = builder.vertices.size(), edges = builder.edges.size();
-    const auto moved = [&](Index& p) { p += points; };
-    builder.points.insert(builder.points.end(), more.points.begin(), more.points.end());
-    for (Vertex vertex : more.vertices) {
-        moved(vertex.point);
-        vertex.origin = Origin::given;
-        builder.vertices.push_back(vertex);
-    }
-    for (Edge edge : more.edges) {
-        edge.from = VertexId(edge.from.index() + vertices);
-        edge.to = VertexId(edge.to.index() + vertices);
-        std::ranges::for_each(edge.points, moved);
-        edge.origin = Origin::given;
-        builder.edges.push_back(std::move(edge));
-    }
-    for (Face face : more.faces) {
-        for (Loop& loop : face.loops)
-            for (EdgeUse& use : loop.uses) use.edge = EdgeId(use.edge.index() + edges);
-        for (Triangle& t : face.triangles) std::ranges::for_each(t, moved);
-        for (Quad& q : face.given_quads) std::ranges::for_each(q, moved);
-        builder.faces.push_back(std::move(face));
-    }
+    ModelBuilder given(more);
+    for (Vertex& vertex : given.vertices) vertex.origin = Origin::given;
+    for (Edge& edge : given.edges) edge.origin = Origin::given;
+    healing::append(builder, std::move(given).finish());
 }
 
 std::optional<JoinedParts> join_touching_parts(const Model& model, const std::vector<FaceId>& named,

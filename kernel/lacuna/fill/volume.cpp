@@ -268,7 +268,7 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
         closure::log_notes(*volume.closure, context);
         return volume;
     }
-    asked.take_guess = volume.take_guess;
+    asked.roles_by = volume.roles_by;
     const topology::Model& model = volume.volume.model;
     closure::Closed closed = unless_faces_cross(model, topology::all_faces(model), context, [&] {
         return volume.along
@@ -322,7 +322,7 @@ Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string
     volume.level = piece.level;
     volume.name = name;
     volume.material = whole.material;
-    volume.take_guess = whole.take_guess;
+    volume.roles_by = whole.roles_by;
     volume.decks = whole.decks;
     volume.scale = whole.scale;
     volume.unit = whole.unit;

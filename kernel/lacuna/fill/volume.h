@@ -35,8 +35,8 @@ struct Volume {
     std::optional<Message> no_roles;
     std::shared_ptr<const closure::SweptSource> along; ///< for class 0: its source and the motion; else null
     bool roles_found = false;                          ///< all roles were found; the user named none
-    bool take_guess = false;                           ///< whether an ambiguous closing is accepted
-    bool told = false;                                 ///< whether the notes of the closure were logged
+    closure::RolesBy roles_by = closure::RolesBy::person; ///< of a chosen reading: `finding`
+    bool told = false;                                    ///< whether the notes of the closure were logged
     /// For a piece cut at steps: pieces of level 0 run from source to target; the others take the remaining
     /// layers.
     int level = 0;

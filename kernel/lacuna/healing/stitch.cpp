@@ -13,6 +13,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -317,6 +318,29 @@ std::string StitchReport::summary() const
     add(edges_collapsed, "short edge collapsed", "short edges collapsed");
     add(faces_left_out, "face left out", "faces left out");
     return text;
+}
+
+void append(topology::ModelBuilder& model, topology::Model more)
+{
+    topology::ModelBuilder added(std::move(more));
+    const auto moved = [first = static_cast<Index>(model.points.size())](Index& p) { p += first; };
+    const std::size_t first_vertex = model.vertices.size(), first_edge = model.edges.size();
+    for (topology::Vertex& vertex : added.vertices) moved(vertex.point);
+    for (topology::Edge& edge : added.edges) {
+        edge.from = VertexId(edge.from.index() + first_vertex);
+        edge.to = VertexId(edge.to.index() + first_vertex);
+        std::ranges::for_each(edge.points, moved);
+    }
+    for (topology::Face& face : added.faces) {
+        for (topology::Loop& loop : face.loops)
+            for (topology::EdgeUse& use : loop.uses) use.edge = EdgeId(use.edge.index() + first_edge);
+        for (Triangle& t : face.triangles) std::ranges::for_each(t, moved);
+        for (Quad& q : face.given_quads) std::ranges::for_each(q, moved);
+    }
+    std::ranges::move(added.points, std::back_inserter(model.points));
+    std::ranges::move(added.vertices, std::back_inserter(model.vertices));
+    std::ranges::move(added.edges, std::back_inserter(model.edges));
+    std::ranges::move(added.faces, std::back_inserter(model.faces));
 }
 
 StitchReport stitch(topology::Model& model, double tolerance, const RunContext& context, double share)

@@ -4,10 +4,10 @@
 #include <lacuna/core/error.h>
 #include <lacuna/healing/shared/stitch.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/shared/deck_facets.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/input_file.h>
 #include <lacuna/io/leave_out.h>
+#include <lacuna/io/shared/deck_facets.h>
 #include <lacuna/io/shared/units.h>
 
 #include <algorithm>
@@ -107,46 +107,24 @@ void append(FacetFile& all, FacetFile more)
     move_in(all.notes, more.notes);
 }
 
-/// A model with the entities of `first`, followed by those of `second`, without loops. Tags of faces, edges
-/// and vertices of the second start above the highest of the first.
+/// A model with the entities of `first`, followed by those of `second`. Tags of faces, edges and vertices of
+/// the second start above the highest of the first.
 topology::Model joined(topology::Model first, topology::Model second)
 {
     topology::ModelBuilder model(std::move(first)), more(std::move(second));
-    const auto points = static_cast<Index>(model.points.size());
-    const std::size_t vertices = model.vertices.size();
-    const int vertex_tag = highest_tag(model.vertices);
-    const int edge_tag = highest_tag(model.edges);
-    const int face_tag = highest_tag(model.faces);
-    for (topology::Vertex& vertex : more.vertices) {
-        vertex.point += points;
-        vertex.tag += vertex_tag;
-    }
-    for (topology::Edge& edge : more.edges) {
-        edge.tag += edge_tag;
-        edge.from = VertexId(edge.from.index() + vertices);
-        edge.to = VertexId(edge.to.index() + vertices);
-        for (Index& p : edge.points) p += points;
-    }
-    for (topology::Face& face : more.faces) {
-        face.tag += face_tag;
-        face.loops.clear();
-        for (Triangle& t : face.triangles) {
-            for (Index& p : t) p += points;
-        }
-        for (Quad& q : face.given_quads) {
-            for (Index& p : q) p += points;
-        }
-    }
-    move_in(model.points, more.points);
-    move_in(model.vertices, more.vertices);
-    move_in(model.edges, more.edges);
-    move_in(model.faces, more.faces);
-    Eigen::AlignedBox3d bounds;
-    for (const Vec3& p : model.points) bounds.extend(p);
-    model.diagonal = bounds.diagonal().norm();
+    const auto raise_tags = [](auto& entities, int by) {
+        for (auto& entity : entities) entity.tag += by;
+    };
+    raise_tags(more.vertices, highest_tag(model.vertices));
+    raise_tags(more.edges, highest_tag(model.edges));
+    raise_tags(more.faces, highest_tag(model.faces));
     model.tolerance = std::max(model.tolerance, more.tolerance);
     model.source += ", " + more.source;
     move_in(model.notes, more.notes);
+    healing::append(model, std::move(more).finish());
+    Eigen::AlignedBox3d bounds;
+    for (const Vec3& p : model.points) bounds.extend(p);
+    model.diagonal = bounds.diagonal().norm();
     return std::move(model).finish();
 }
 

@@ -43,10 +43,10 @@ struct Border {
     std::optional<EdgeImage> image;
 };
 
-class Imprinter {
+class TargetImprinter {
 public:
-    Imprinter(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-              std::span<const KnownLine> known)
+    TargetImprinter(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
+                    std::span<const KnownLine> known)
         : size_(size), given_links_(links), known_(known), inner_(inner_edges(volume, Role::target))
     {
         result_.volume = std::make_unique<OpenVolume>(volume);
@@ -565,7 +565,7 @@ std::map<EdgeId, double> image_lengths(const Imprint& imprint)
 Imprint imprint_target(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
                        std::span<const KnownLine> known)
 {
-    return Imprinter(volume, links, size, known).run();
+    return TargetImprinter(volume, links, size, known).run();
 }
 
 } // namespace lacuna::surface

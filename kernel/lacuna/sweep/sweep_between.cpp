@@ -191,6 +191,234 @@ std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
     return surface::imprint_target(volume, links, size);
 }
 
+/// One sweep, stage by stage.
+class SweepBetween {
+public:
+    SweepBetween(const OpenVolume& volume, std::vector<surface::LinkingSurface> links,
+                 const SourceSize& sizes, const SweepOptions& options, const RunContext& context)
+        : volume_(volume),
+          sizes_(sizes),
+          options_(options),
+          context_(context),
+          motion_(moving_faces(volume)),
+          given_links_(std::move(links))
+    {
+    }
+
+    ProvedSweep run(const std::vector<double>& asked, Outline outline)
+    {
+        plan(asked);
+        mesh_source_and_walls(outline);
+        mesh_target();
+        make_cells();
+        return prove();
+    }
+
+private:
+    /// Imprint the target, divide the rims, and choose the layers.
+    void plan(const std::vector<double>& asked)
+    {
+        if (!motion_) imprint_ = imprint_of(volume_, given_links_, size_, options_.wedges);
+        if (imprint_) {
+            split_ = imprint_->volume.get();
+            links_ = &imprint_->links;
+        }
+        std::vector<surface::LinkingSurface>& links = *links_;
+        check_cancelled(context_);
+        given_ = given_meshes(*split_, links, asked, size_, options_);
+        if (options_.curvature > SweepOptions{}.curvature && may_divide_rims(volume_, options_)) {
+            for (surface::LinkingSurface& link : links)
+                for (surface::RimSegment& segment : link.segments) segment.given = false;
+        }
+        surface::WallBreaks wall_breaks = surface::set_wall_breaks(*split_, size_, std::move(links));
+        links = std::move(wall_breaks.links);
+        if (sizes_by_default(options_))
+            links = surface::follow_facets(
+                surface::RimFacets(*split_, links).breaks(options_.curvature, size_), links);
+        tables_ = surface::layer_tables(volume_, options_.boundary_layers);
+        planned_ = plan_heights(
+            *split_, links, tables_, given_.heights, sizes_, options_,
+            options_.size ? wall_breaks.layers : std::max(wall_breaks.layers, kDefaultGap), context_);
+    }
+
+    void mesh_source_and_walls(Outline outline)
+    {
+        const std::vector<surface::LinkingSurface>& links = *links_;
+        surface::EdgeDemands demands{surface::rim_rows(*split_, links, tables_),
+                                     surface::find_intervals(*split_, links, options_.intervals).sides,
+                                     options_.beside.handed};
+        refuse_kept_source(*split_, demands.rows, options_);
+        for (const std::string& note : given_.notes) result_.not_kept.push_back("given: " + note);
+        result_.report = result_.not_kept;
+        report_progress(context_, "quads of the source", share::source);
+        check_cancelled(context_);
+        seeds_.emplace(surface::seed_source(
+            *split_, links, size_, style_of(options_, !demands.rows.empty()), sizes_.sizing,
+            imprint_ ? surface::image_lengths(*imprint_) : std::map<EdgeId, double>{}, options_.wedges,
+            demands, context_));
+        for (const std::string& note : seeds_->notes) result_.report.push_back("given: " + note);
+        result_.defaults = sizes_in_words(
+            volume_, *split_, sizes_, *seeds_, options_,
+            {static_cast<int>(planned_.heights.size()) - 1, !given_.heights.empty(), planned_.by_bends});
+        result_.report.insert(result_.report.end(), result_.defaults.begin(), result_.defaults.end());
+        std::vector<surface::LinkingNodes> rim;
+        for (const surface::LinkingSurface& link : links) rim.push_back(seeds_->nodes(link));
+        const auto mesh_walls = [&](const RunContext& own) {
+            return surface::mesh_walls(*split_, links, rim, planned_.heights, given_.columns, own);
+        };
+        std::optional<Background<std::vector<surface::WallMesh>>> walls_to_be;
+        if (walls_beside(*split_, *seeds_, rim, planned_.heights)) walls_to_be.emplace(context_, mesh_walls);
+        source_ = surface::mesh_source(*split_, links, *seeds_, size_fields(size_, options_),
+                                       mesher_for_all(options_, sizes_.narrow), context_);
+        report_progress(context_, "walls", share::walls);
+        walls_ = walls_to_be ? walls_to_be->take() : mesh_walls(context_);
+        columns_ = columns_of(links, source_, planned_.heights, walls_);
+        if (outline == Outline::mean && !options_.wedges)
+            source_ = laid_between(*split_, std::move(source_), columns_, size_,
+                                   mesher_of(options_, sizes_.narrow), context_);
+        for (std::string& note : source_.notes) result_.report.push_back("source " + note);
+        for (const surface::WallMesh& wall : walls_) {
+            for (const std::string& note : wall.notes) result_.report.push_back("walls: " + note);
+        }
+        check_cancelled(context_);
+    }
+
+    void mesh_target()
+    {
+        report_progress(context_, "target", share::target);
+        surface::GivenTarget given_target;
+        if (!imprint_) given_target = surface::given_target(volume_, *links_, source_, options_.wedges);
+        keeps_target_ = !given_target.face.empty();
+        const bool moved = motion_ && !keeps_target_;
+        if (!keeps_target_ && !imprint_ && !moved && !surface::inner_edges(volume_, Role::target).empty())
+            // If faces of the target keep their quads, this raises an error that names them.
+            imprint_ = surface::imprint_target(volume_, *links_, size_);
+        ends_ = end_faces(volume_, source_, imprint_, motion_ != nullptr);
+        if (keeps_target_) ends_.target = std::move(given_target.face);
+        if (!given_target.why.empty()) {
+            result_.not_kept.push_back("target: its given quads are not kept: " + given_target.why);
+            result_.report.push_back(result_.not_kept.back());
+            result_.notes.push_back(result_.not_kept.back());
+        }
+        if (keeps_target_) {
+            target_.nodes = std::move(given_target.nodes);
+            target_.report = "its given quads are connected like the source's and are kept";
+        } else if (moved) {
+            target_ = moved_by(*motion_, source_, columns_);
+        } else {
+            const OpenVolume& shape = shape_of(volume_, options_);
+            const std::optional<OpenVolume> turned = shape.turned_round != volume_.turned_round
+                                                         ? std::optional(turned_round(shape))
+                                                         : std::nullopt;
+            target_ = imprint_
+                          ? morph_onto_faces(source_, columns_, *seeds_, *imprint_, ends_.target, context_)
+                          : morph_onto(turned ? *turned : shape, source_, columns_, context_);
+        }
+        result_.report.push_back("target: " + target_.report);
+    }
+
+    /// Place the nodes of the layers, and name the patches of the skin.
+    void make_cells()
+    {
+        report_progress(context_, "layers", share::layers);
+        PlacementOptions placement;
+        placement.straight_lines = ruled(volume_, *links_);
+        placement.heights = planned_.heights;
+        if (may_be_layered(options_))
+            good_ = good_layers(source_, target_, columns_, placement, options_, context_);
+        LayerNodes layers;
+        if (good_) {
+            layers = {.nodes = source_.quads.nodes, .report = good_->layers.report};
+            result_.layers = std::move(good_->layers.nodes);
+            result_.plan = std::move(good_->layers.plan);
+        } else {
+            layers = place_layers(source_.quads, target_.nodes, columns_, placement, context_);
+        }
+        result_.report.push_back(layers.report);
+        SweptParts parts{*split_,      *links_,         source_, walls_,
+                         ends_,        columns_.layers, {},      !seeds_->kept.empty(),
+                         keeps_target_};
+        if (imprint_) {
+            for (const auto& [edge, image] : imprint_->images) parts.target_edges[edge] = image.target;
+        }
+        KeptThickness kept;
+        if (!good_) kept = keep_thickness(parts, tables_, layers.nodes, context_);
+        hold_creases(*links_, source_, planned_.heights.size(), kept.held);
+        for (std::string& note : kept.report) result_.report.push_back(std::move(note));
+        held_ = std::move(kept.held);
+
+        result_.mesh = cells_over(source_.quads, columns_.layers);
+        result_.mesh.nodes = std::move(layers.nodes);
+        faces_ = set_patches(volume_, source_, ends_, walls_, result_.mesh);
+        // Free memory for the proof.
+        walls_ = {};
+        columns_ = {};
+        for (const FaceId wall : volume_.faces(Role::wall)) {
+            if (volume_.model[wall].origin != Origin::given ||
+                std::ranges::find(faces_, wall) != faces_.end())
+                continue;
+            result_.report.push_back(
+                formatted("walls: {} is smaller than the quads there, so it gets no quads and no group",
+                          entity_of(volume_.model, wall)));
+        }
+    }
+
+    ProvedSweep prove()
+    {
+        report_progress(context_, "proof of every cell", share::proof);
+        check_cancelled(context_);
+        std::set<FaceId> still = given_faces(volume_, seeds_->kept, options_.wedges);
+        if (options_.beside.settle) {
+            SettledNodes settled = options_.beside.settle(result_.skin(), faces_);
+            still.merge(settled.faces);
+            for (const auto& [node, place] : settled.nodes) result_.mesh.nodes[index(node)] = place;
+        }
+        quality::Proof proof = good_ ? quality::prove(mesh::LayeredMesh{result_.mesh, *result_.layers},
+                                                      std::move(good_->found.quality),
+                                                      std::move(good_->found.misplaced),
+                                                      options_.min_scaled_jacobian)
+                                     : prove_or_improve(result_, volume_.model, faces_, still,
+                                                        std::move(held_), options_, context_);
+        const quality::Quality& quality = proof.quality;
+        result_.min_scaled_jacobian = quality.min_scaled_jacobian;
+        const std::string wedges = quality.wedges > 0 ? formatted(" hexahedra and {} wedges", quality.wedges)
+                                                      : "";
+        result_.report.push_back(
+            formatted("cells: {}{}, all certified, scaled Jacobian {:.6f} at least, {:.6f} on "
+                      "average",
+                      quality.hexes, wedges, quality.min_scaled_jacobian, quality.mean_scaled_jacobian));
+        report_given(volume_, result_, options_.wedges);
+        result_.quality = quality;
+        return {std::move(result_), std::move(proof), faces_, seeds_->kept};
+    }
+
+    const OpenVolume& volume_;
+    const SourceSize& sizes_;
+    const surface::SizeField& size_ = sizes_.shape.at;
+    const SweepOptions& options_;
+    const RunContext& context_;
+    const geometry::MotionPointer motion_;
+    std::vector<surface::LinkingSurface> given_links_;
+    std::optional<surface::Imprint> imprint_;
+    /// The volume and its links, with the target's inner edges imprinted on the source.
+    const OpenVolume* split_ = &volume_;
+    std::vector<surface::LinkingSurface>* links_ = &given_links_;
+    GivenMeshes given_;
+    surface::LayerTables tables_;
+    PlannedHeights planned_;
+    std::optional<surface::Seeds> seeds_;
+    surface::SourceMesh source_;
+    std::vector<surface::WallMesh> walls_;
+    RimColumns columns_;
+    EndFaces ends_;
+    Morphed target_;
+    bool keeps_target_ = false;
+    std::optional<GoodLayers> good_;
+    std::vector<char> held_; ///< nodes that an improvement may not move
+    std::vector<FaceId> faces_;
+    Swept result_;
+};
+
 } // namespace
 
 const OpenVolume& shape_of(const OpenVolume& volume, const SweepOptions& options)
@@ -202,159 +430,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                           const std::vector<double>& asked, const SourceSize& sizes,
                           const SweepOptions& options, Outline outline, const RunContext& context)
 {
-    const surface::SizeField& size = sizes.shape.at;
-    Swept result;
-    const geometry::MotionPointer motion = moving_faces(volume);
-    std::optional<surface::Imprint> imprint;
-    if (!motion) imprint = imprint_of(volume, given_links, size, options.wedges);
-    const OpenVolume& split = imprint ? *imprint->volume : volume;
-    std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
-    check_cancelled(context);
-    GivenMeshes given = given_meshes(split, links, asked, size, options);
-    if (options.curvature > SweepOptions{}.curvature && may_divide_rims(volume, options)) {
-        for (surface::LinkingSurface& link : links)
-            for (surface::RimSegment& segment : link.segments) segment.given = false;
-    }
-    surface::WallBreaks wall_breaks = surface::set_wall_breaks(split, size, std::move(links));
-    links = std::move(wall_breaks.links);
-    const int least_layers = wall_breaks.layers;
-    if (sizes_by_default(options))
-        links = surface::follow_facets(surface::RimFacets(split, links).breaks(options.curvature, size),
-                                       links);
-    const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
-    const bool by_rows = !given.heights.empty();
-    const auto [heights, by_bends] = plan_heights(
-        split, links, tables, given.heights, sizes, options,
-        options.size ? least_layers : std::max(least_layers, kDefaultGap), context);
-    surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
-                                 surface::find_intervals(split, links, options.intervals).sides,
-                                 options.beside.handed};
-    refuse_kept_source(split, demands.rows, options);
-    for (const std::string& note : given.notes) result.not_kept.push_back("given: " + note);
-    result.report = result.not_kept;
-    report_progress(context, "quads of the source", share::source);
-    check_cancelled(context);
-    const surface::Seeds seeds = surface::seed_source(
-        split, links, size, style_of(options, !demands.rows.empty()), sizes.sizing,
-        imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges, demands,
-        context);
-    for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
-    result.defaults = sizes_in_words(volume, split, sizes, seeds, options,
-                                     {static_cast<int>(heights.size()) - 1, by_rows, by_bends});
-    result.report.insert(result.report.end(), result.defaults.begin(), result.defaults.end());
-    std::vector<surface::LinkingNodes> rim;
-    for (const surface::LinkingSurface& link : links) rim.push_back(seeds.nodes(link));
-    const auto mesh_walls = [&](const RunContext& own) {
-        return surface::mesh_walls(split, links, rim, heights, given.columns, own);
-    };
-    std::optional<Background<std::vector<surface::WallMesh>>> walls_to_be;
-    if (walls_beside(split, seeds, rim, heights)) walls_to_be.emplace(context, mesh_walls);
-    surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
-                                                      mesher_for_all(options, sizes.narrow), context);
-    report_progress(context, "walls", share::walls);
-    std::vector<surface::WallMesh> walls = walls_to_be ? walls_to_be->take() : mesh_walls(context);
-    RimColumns columns = columns_of(links, source, heights, walls);
-    if (outline == Outline::mean && !options.wedges)
-        source = laid_between(split, std::move(source), columns, size, mesher_of(options, sizes.narrow),
-                              context);
-    for (std::string& note : source.notes) result.report.push_back("source " + note);
-    for (const surface::WallMesh& wall : walls) {
-        for (const std::string& note : wall.notes) result.report.push_back("walls: " + note);
-    }
-    check_cancelled(context);
-
-    report_progress(context, "target", share::target);
-    surface::GivenTarget given_target;
-    if (!imprint) given_target = surface::given_target(volume, links, source, options.wedges);
-    const bool keeps_target = !given_target.face.empty();
-    const bool moved = motion && !keeps_target;
-    if (!keeps_target && !imprint && !moved && !surface::inner_edges(volume, Role::target).empty())
-        // If faces of the target keep their quads, this raises an error that names them.
-        imprint = surface::imprint_target(volume, links, size);
-    EndFaces ends = end_faces(volume, source, imprint, motion != nullptr);
-    if (keeps_target) ends.target = std::move(given_target.face);
-    if (!given_target.why.empty()) {
-        result.not_kept.push_back("target: its given quads are not kept: " + given_target.why);
-        result.report.push_back(result.not_kept.back());
-        result.notes.push_back(result.not_kept.back());
-    }
-    Morphed morphed;
-    if (keeps_target) {
-        morphed.nodes = std::move(given_target.nodes);
-        morphed.report = "its given quads are connected like the source's and are kept";
-    } else if (moved) {
-        morphed = moved_by(*motion, source, columns);
-    } else {
-        const OpenVolume& shape = shape_of(volume, options);
-        const std::optional<OpenVolume> turned = shape.turned_round != volume.turned_round
-                                                     ? std::optional(turned_round(shape))
-                                                     : std::nullopt;
-        morphed = imprint ? morph_onto_faces(source, columns, seeds, *imprint, ends.target, context)
-                          : morph_onto(turned ? *turned : shape, source, columns, context);
-    }
-    result.report.push_back("target: " + morphed.report);
-    report_progress(context, "layers", share::layers);
-    PlacementOptions placement;
-    placement.straight_lines = ruled(volume, links);
-    placement.heights = heights;
-    std::optional<GoodLayers> good;
-    if (may_be_layered(options)) good = good_layers(source, morphed, columns, placement, options, context);
-    LayerNodes layers;
-    if (good) {
-        layers = {.nodes = source.quads.nodes, .report = good->layers.report};
-        result.layers = std::move(good->layers.nodes);
-        result.plan = std::move(good->layers.plan);
-    } else {
-        layers = place_layers(source.quads, morphed.nodes, columns, placement, context);
-    }
-    result.report.push_back(layers.report);
-    SweptParts parts{split,       links, source, walls, ends, columns.layers, {}, !seeds.kept.empty(),
-                     keeps_target};
-    if (imprint) {
-        for (const auto& [edge, image] : imprint->images) parts.target_edges[edge] = image.target;
-    }
-    KeptThickness kept;
-    if (!good) kept = keep_thickness(parts, tables, layers.nodes, context);
-    hold_creases(links, source, heights.size(), kept.held);
-    for (std::string& note : kept.report) result.report.push_back(std::move(note));
-
-    mesh::HexMesh& mesh = result.mesh;
-    mesh = cells_over(source.quads, columns.layers);
-    mesh.nodes = std::move(layers.nodes);
-    const std::vector<FaceId> faces = set_patches(volume, source, ends, walls, mesh);
-    // Free memory for the proof.
-    walls = {};
-    columns = {};
-    for (const FaceId wall : volume.faces(Role::wall)) {
-        if (volume.model[wall].origin != Origin::given || std::ranges::find(faces, wall) != faces.end())
-            continue;
-        result.report.push_back(
-            formatted("walls: {} is smaller than the quads there, so it gets no quads and no group",
-                      entity_of(volume.model, wall)));
-    }
-    report_progress(context, "proof of every cell", share::proof);
-    check_cancelled(context);
-    std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
-    if (options.beside.settle) {
-        SettledNodes settled = options.beside.settle(result.skin(), faces);
-        still.merge(settled.faces);
-        for (const auto& [node, place] : settled.nodes) mesh.nodes[index(node)] = place;
-    }
-    quality::Proof proof =
-        good ? quality::prove(mesh::LayeredMesh{mesh, *result.layers}, std::move(good->found.quality),
-                              std::move(good->found.misplaced), options.min_scaled_jacobian)
-             : prove_or_improve(result, volume.model, faces, still, std::move(kept.held), options, context);
-    const quality::Quality& quality = proof.quality;
-    result.min_scaled_jacobian = quality.min_scaled_jacobian;
-    const std::string wedges = quality.wedges > 0 ? formatted(" hexahedra and {} wedges", quality.wedges)
-                                                  : "";
-    result.report.push_back(
-        formatted("cells: {}{}, all certified, scaled Jacobian {:.6f} at least, {:.6f} on "
-                  "average",
-                  quality.hexes, wedges, quality.min_scaled_jacobian, quality.mean_scaled_jacobian));
-    report_given(volume, result, options.wedges);
-    result.quality = quality;
-    return {std::move(result), std::move(proof), faces, seeds.kept};
+    return SweepBetween(volume, std::move(given_links), sizes, options, context).run(asked, outline);
 }
 
 } // namespace lacuna::sweep

@@ -206,10 +206,10 @@ private:
 
 // --- imprinting ---------------------------------------------------------------------------------------
 
-class Imprinter {
+class WalkImprinter {
 public:
-    Imprinter(ModelBuilder& model, std::span<const SectionWalk> walks, const geometry::Plane& plane,
-              double tolerance, const RunContext& context)
+    WalkImprinter(ModelBuilder& model, std::span<const SectionWalk> walks, const geometry::Plane& plane,
+                  double tolerance, const RunContext& context)
         : model_(model), walks_(walks), plane_(plane), tolerance_(tolerance), context_(context)
     {
     }
@@ -583,7 +583,7 @@ std::vector<SectionWalk> section_walks(const Model& model, const std::vector<Fac
 WalkImprint imprint_walks(ModelBuilder& model, std::span<const SectionWalk> walks,
                           const geometry::Plane& plane, double tolerance, const RunContext& context)
 {
-    return Imprinter(model, walks, plane, tolerance, context).run();
+    return WalkImprinter(model, walks, plane, tolerance, context).run();
 }
 
 } // namespace lacuna::topology

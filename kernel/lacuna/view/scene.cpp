@@ -237,6 +237,17 @@ Legend legend_of(const Regions& regions, const std::string& title, const std::ve
     return legend;
 }
 
+/// Hide the edges of all sides, unless they are drawn.
+/// @throw InvalidInput  there are no sides
+void finish_sides(Scene& scene, const PictureOptions& options)
+{
+    if (!options.edges)
+        for (DrawnSide& side : scene.sides) side.hidden = 15;
+    if (scene.sides.empty())
+        throw InvalidInput(Message("view.empty", "picture: option 'cut' hides all cells")
+                               .remedy("reverse its normal or move its point"));
+}
+
 } // namespace
 
 Scene scene_of(std::span<const Region> regions, const PictureOptions& options, const RunContext& context)
@@ -276,11 +287,7 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
                 like);
         });
     }
-    if (!options.edges)
-        for (DrawnSide& side : scene.sides) side.hidden = 15;
-    if (scene.sides.empty())
-        throw InvalidInput(Message("view.empty", "picture: option 'cut' hides all cells")
-                               .remedy("reverse its normal or move its point"));
+    finish_sides(scene, options);
     scene.legend = legend_of(regions, title_of(regions), colours, options);
     if (options.colour == ColourBy::quality) scene.legend.low = quality_low(least);
     if (options.colour == ColourBy::layer) scene.legend.high = layers;
@@ -362,11 +369,7 @@ Scene scene_of(const DeckCells& deck, const PictureOptions& options, const RunCo
         add_sides(scene, region, colours, options);
         ++colours.region;
     }
-    if (!options.edges)
-        for (DrawnSide& side : scene.sides) side.hidden = 15;
-    if (scene.sides.empty())
-        throw InvalidInput(Message("view.empty", "picture: option 'cut' hides all cells")
-                               .remedy("reverse its normal or move its point"));
+    finish_sides(scene, options);
     scene.legend = legend_of(deck.regions, title_of(deck.regions.size(), cells), {colours}, options);
     if (options.colour == ColourBy::quality) scene.legend.low = colours.low;
     return scene;

@@ -9,9 +9,6 @@
 
 namespace lacuna::closure {
 
-/// Whether the user or the program chose the roles of the faces.
-enum class RolesBy { person, finding };
-
 /// The error about the first void face with an ambiguous bend in a sealed volume, without a remedy; empty if
 /// there is none. The code is "closure.shape_open" if the user chose the roles, otherwise
 /// "topology.shape_open". Two kinds of void faces are ambiguous:

@@ -9,10 +9,11 @@ namespace lacuna::closure {
 /// Faces that may be rounds: walls only, or also faces of the ends, such as domes.
 enum class RoundsOf { walls, ends_and_walls };
 
-/// Whether a face without given quads is the smooth, undivided skin of a whole product. Such a face has one
-/// rim; in places it is perpendicular to the axis, in others as steep as a wall.
+/// Whether one smooth face is an end and its walls at once: the undivided skin of a whole product. Such a
+/// face has one rim and no given quads; in places it is perpendicular to the axis, in others as steep as a
+/// wall.
 /// @param axis  unit vector
-bool is_smooth_cap(const topology::Model& model, FaceId face, const Vec3& axis);
+bool is_end_with_walls(const topology::Model& model, FaceId face, const Vec3& axis);
 
 /// Divide the rounds at the rims of the ends. Round: a curved face that meets an end smoothly and is inclined
 /// to the end by less than 45° in places and by more in others, such as the fillet around the top of a

@@ -12,7 +12,8 @@ namespace lacuna::closure {
 /// turns towards the void by more than 45° at one of its rims; also `has_round_steps()`.
 bool has_steps(const topology::OpenVolume& volume, const RunContext& context = {});
 
-/// Whether an end has a smooth cap, and steps once its rounds are divided; see `is_smooth_cap()`.
+/// Whether a face of an end is an end with walls (`is_end_with_walls()`), and the end has steps once the
+/// rounds of this face are divided.
 bool has_round_steps(const topology::OpenVolume& volume, const RunContext& context = {});
 
 /// A piece of a cut volume.

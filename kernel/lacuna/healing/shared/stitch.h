@@ -62,4 +62,7 @@ inline constexpr double kSewnShare = 0.01;
 StitchReport stitch(topology::Model& model, double tolerance, const RunContext& context = {},
                     double share = 0);
 
+/// Add the points and entities of another model to `model`, with their tags, for `stitch()`.
+void append(topology::ModelBuilder& model, topology::Model more);
+
 } // namespace lacuna::healing
