@@ -155,6 +155,23 @@ Cylinder(%d) = {%g,0,0, 0,0,60, 5};  Rotate {{0,0,1},{%g,0,0},%g} { Volume{%d}; 
   check.that(quality.min_scaled_jacobian > 0.5, n .. " tubes")
 end
 
+-- A frame on a larger plate, with or without a block on the plate in it: only the part of the plate inside
+-- the frame bounds the room.
+for _, block in ipairs { false, true } do
+  local model = solids("frame", [[
+Box(1) = {-50,-50,-5, 100,100,5};
+Box(2) = {-33,-33,0, 66,66,20};  Box(3) = {-30,-30,0, 60,60,20};
+BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
+]] .. (block and "Box(5) = {-10,-8,0, 20,16,6};" or ""))
+  local floor = model:face { kind = "plane", facing = { 0, 0, 1 }, near = { 0, 29, 0 } }
+  local inner = model:faces { box = { { -30.1, -30.1, -0.1 }, { 30.1, 30.1, 20.1 } } }
+  local volume = volume_of(model, { faces = { floor, table.unpack(inner) } }, 5)
+  check.near(volume, 72000 - (block and 1920 or 0), 1e-6)
+  if not block then
+    check.near(volume_of(model, { source = floor, walls = inner }, 5), 72000, 1e-6)
+  end
+end
+
 -- Parts that reach into each other, by little or much, are refused by name.
 for _, deep in ipairs { 0.001, 0.5, 10 } do
   for _, place in ipairs { ("20,20,%g"):format(-deep), ("%g,20,0"):format(-deep),

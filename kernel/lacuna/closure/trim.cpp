@@ -92,22 +92,25 @@ bool crosses_inside(const Model& model, const std::vector<FaceId>& faces, const 
     });
 }
 
-/// The faces of a part that lie in a plane, inside a loop in that plane. Empty if one of them leaves the
-/// loop.
-std::vector<FaceId> faces_inside(const Model& model, const std::vector<FaceId>& part,
-                                 const geometry::Plane& plane, const std::vector<Vec3>& loop)
+/// The faces of a part that lie in a plane.
+std::vector<FaceId> faces_in(const Model& model, const std::vector<FaceId>& part,
+                             const geometry::Plane& plane)
+{
+    std::vector<FaceId> flush;
+    for (const FaceId face : part)
+        if (lies_in_plane(model, face, plane)) flush.push_back(face);
+    return flush;
+}
+
+bool lie_inside(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane,
+                const std::vector<Vec3>& loop)
 {
     const std::vector<Vec2> around = flat_places(plane, loop);
-    std::vector<FaceId> flush;
-    for (const FaceId face : part) {
-        if (!lies_in_plane(model, face, plane)) continue;
-        if (!std::ranges::all_of(corners_of(model[face]), [&](Index p) {
-                return geometry::lies_inside(around, geometry::to_plane(plane, model.at(p)));
-            }))
-            return {};
-        flush.push_back(face);
-    }
-    return flush;
+    return std::ranges::all_of(faces, [&](FaceId face) {
+        return std::ranges::all_of(corners_of(model[face]), [&](Index p) {
+            return geometry::lies_inside(around, geometry::to_plane(plane, model.at(p)));
+        });
+    });
 }
 
 /// A face of a part beside one of its rims.
@@ -185,21 +188,23 @@ std::optional<Overhang> find_overhang(const Model& model, const std::vector<Face
             const auto plane = plane_of_end(model, around, loop);
             if (!plane) continue;
             std::optional<std::vector<FaceId>> first;
-            bool continues = false; // whether a part lies in front of the plane
+            bool continues = false; // whether a part lies in front of the plane, or across the rim
             for (std::size_t p = 0; p < parts.size() && !continues; ++p) {
                 const std::vector<FaceId>& part = parts[p];
                 const double middle = geometry::height(*plane, boxes[p].center());
                 const double reach = plane->normal.cwiseAbs().dot(boxes[p].sizes()) / 2;
                 if (&part == &around || middle + reach < -model.tolerance) continue;
                 const Range range = heights(model, part, *plane);
-                continues = range.low >= -model.tolerance && range.high > model.tolerance;
-                if (first || range.low >= -model.tolerance || range.high < -model.tolerance) continue;
-                if (range.high <= model.tolerance) {
-                    std::vector<FaceId> flush = faces_inside(model, part, *plane, loop);
-                    if (!flush.empty()) first = std::move(flush);
-                } else if (!crosses_quads(model, part, *plane) && crosses_inside(model, part, *plane, loop)) {
+                std::vector<FaceId> flush = faces_in(model, part, *plane);
+                // A face across the rim closes it, such as the plate that a frame stands on.
+                continues = (range.low >= -model.tolerance && range.high > model.tolerance) ||
+                            !lie_inside(model, flush, *plane, loop);
+                if (first || continues || range.low >= -model.tolerance) continue;
+                if (range.high > model.tolerance && !crosses_quads(model, part, *plane) &&
+                    crosses_inside(model, part, *plane, loop))
                     first = part;
-                }
+                else if (range.high <= model.tolerance && !flush.empty())
+                    first = std::move(flush);
             }
             if (first && !continues)
                 return Overhang{*plane, std::move(*first), face_beside(model, around, rim)};
