@@ -323,8 +323,8 @@ private:
         return result;
     }
 
-    /// Leave out the parts of a named face that a contact cuts off from all other named faces, if another part
-    /// meets such a face. Example: the part of a plate outside a frame that stands on it.
+    /// Leave out the parts of a named face that a contact cuts off from all other named faces, if another
+    /// part meets such a face. Example: the part of a plate outside a frame that stands on it.
     void leave_out_cut_off(JoinedParts& joined) const
     {
         std::map<FaceId, FaceId> whole; // of each part of a named face
