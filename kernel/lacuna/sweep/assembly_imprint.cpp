@@ -76,12 +76,17 @@ struct Chord {
 };
 
 /// Where the curves of two chords cross. Chords around the crossing that get shorter and shorter replace the
-/// given ones, until their crossing moves by less than the tolerance. Empty as for the chords themselves.
+/// given ones, until their crossing moves by less than the tolerance, or they are as short as the tolerance.
+/// Empty as for the chords themselves.
 std::optional<Vec3> crossing(const Chord& one, const Chord& other, double within)
 {
-    std::optional<Vec3> at = crossing(one.at(0), one.at(1), other.at(0), other.at(1), within);
+    const std::vector<Vec3>&p = *one.line, &q = *other.line;
+    std::optional<Vec3> at = crossing(p[one.start], p[one.start + 1], q[other.start], q[other.start + 1],
+                                      within);
     double moved = at && (one.is_curved() || other.is_curved()) ? kInfinity : 0;
-    for (double half = 1.0 / 8; moved > one.model->tolerance / 2 && half > kSamePlace; half /= 4) {
+    const double tolerance = one.model->tolerance;
+    const double longest = std::max(one.direction().norm(), other.direction().norm());
+    for (double half = 1.0 / 8; moved > tolerance / 2 && half * longest > tolerance; half /= 4) {
         const auto ends = [&](const Chord& chord) {
             const double middle = chord.fraction_of(*at);
             return std::pair(chord.at(std::clamp(middle - half, 0.0, 1.0)),
