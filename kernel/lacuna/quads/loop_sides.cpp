@@ -23,6 +23,14 @@ LoopSides::LoopSides(const PartialMesh& partial, const Cycle& loop) : partial_(p
     }
 }
 
+double LoopSides::gap(const LoopSides& other) const
+{
+    double least = kInfinity;
+    for (const auto& one : runs_)
+        for (const auto& two : other.runs_) least = std::min(least, one.squaredExteriorDistance(two));
+    return std::sqrt(least);
+}
+
 bool LoopSides::is_clear(Index a, Index b) const
 {
     Eigen::AlignedBox2d line(partial_.at(a));

@@ -55,8 +55,8 @@ public:
     }
 
 private:
-    /// A line between two loops. Until a line is searched for, `cost` is the distance of the loops' boxes.
-    /// This is a lower bound of the cost of every line between the two loops.
+    /// A line between two loops. Until a line is searched for, `cost` is a lower bound of the distance of the
+    /// loops, and so of the cost of every line between them.
     struct Bridge {
         double cost = 0;
         std::size_t a = 0, b = 0;
@@ -75,19 +75,14 @@ private:
         for (std::size_t a = 0; a < loops_.size(); ++a) {
             near.clear();
             for (std::size_t b = 0; b < loops_.size(); ++b)
-                if (b != a) near.emplace_back(gap(a, b), b);
+                if (b != a) near.emplace_back(sides_[a].gap(sides_[b]), b);
             const auto end = near.begin() + static_cast<std::ptrdiff_t>(std::min(near.size(), kNearest));
             std::ranges::partial_sort(near, end);
             for (auto one = near.begin(); one != end; ++one) pairs.emplace_back(std::minmax(a, one->second));
         }
         std::ranges::sort(pairs);
         pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
-        for (const auto& [a, b] : pairs) waiting_.push({gap(a, b), a, b});
-    }
-
-    [[nodiscard]] double gap(std::size_t a, std::size_t b) const
-    {
-        return sides_[a].box().exteriorDistance(sides_[b].box());
+        for (const auto& [a, b] : pairs) waiting_.push({sides_[a].gap(sides_[b]), a, b});
     }
 
     /// Whether a line is still valid: no line that was placed after its search touches it.

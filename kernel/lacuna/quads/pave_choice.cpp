@@ -63,10 +63,14 @@ constexpr double kGoodEnough = 3.3;
 /// most kNearLeast times the topological minimum, plus kFewMore.
 constexpr double kFineWorst = 0.82, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
+double irregular_in(const PlaneQuality& quality)
+{
+    return static_cast<double>(quality.irregular + quality.boundary_irregular);
+}
+
 bool is_near_least(const PlaneQuality& quality, int least)
 {
-    const auto irregular = static_cast<double>(quality.irregular + quality.boundary_irregular);
-    return irregular <= kNearLeast * least + kFewMore && quality.size_share() > kPromisedShare &&
+    return irregular_in(quality) <= kNearLeast * least + kFewMore && quality.size_share() > kPromisedShare &&
            quality.row_share() > kFineRows;
 }
 
@@ -231,6 +235,7 @@ void AttemptChooser::consider(Attempt made)
     if (score <= best_score_) return;
     best_score_ = score;
     is_near_least_ = made.worst > kFineWorst && is_near_least(quality, least_irregular_);
+    is_set_by_outline_ = irregular_in(quality) <= kNearLeast * least_irregular_;
     best_ = std::move(made);
 }
 
@@ -470,7 +475,7 @@ double AttemptChooser::score_with(RowStyle style, const CutWeights& weights) con
 void AttemptChooser::try_all_weights()
 {
     if (best_.worst <= setting_.flat || !is_small() || is_good_enough()) return;
-    if (is_few_ && best_.worst > kPoorQuad) return;
+    if ((is_few_ || is_set_by_outline_) && best_.worst > kPoorQuad) return;
     int idle = 0; // if other cuts do not help, the outline is the cause
     for (const CutWeights& weights : cut_weight_rows()) {
         if (idle == kIdleRounds || is_good_enough()) return;

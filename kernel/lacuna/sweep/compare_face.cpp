@@ -109,6 +109,7 @@ public:
     {
         result_.face = quads.face;
         result_.quads = quads_.size();
+        number_nodes();
     }
 
     FaceFidelity run()
@@ -127,7 +128,18 @@ public:
     }
 
 private:
-    [[nodiscard]] const Vec3& node(Index n) const { return skin_.points[index(n)]; }
+    /// Number the nodes of the quads from 0, in their order: the work does not grow with the whole skin.
+    void number_nodes()
+    {
+        std::vector<Index> used;
+        for (const Quad& quad : quads_) used.insert(used.end(), quad.begin(), quad.end());
+        std::ranges::sort(used);
+        used.erase(std::ranges::unique(used).begin(), used.end());
+        for (const Index n : used) points_.push_back(skin_.points[index(n)]);
+        for (Quad& quad : quads_)
+            for (Index& n : quad) n = static_cast<Index>(std::ranges::lower_bound(used, n) - used.begin());
+    }
+    [[nodiscard]] const Vec3& node(Index n) const { return points_[index(n)]; }
     [[nodiscard]] std::array<Vec3, 4> corners(std::size_t quad) const
     {
         const Quad& q = quads_[quad];
@@ -139,9 +151,9 @@ private:
     /// Compare each node once. The sample has the data of the first quad with this node.
     Tally compare_nodes(const FacetWalk& walk)
     {
-        facet_of_node_.assign(skin_.points.size(), -1);
+        facet_of_node_.assign(points_.size(), -1);
         std::vector<std::pair<Index, Index>> first; // node, quad
-        std::vector<bool> seen(skin_.points.size(), false);
+        std::vector<bool> seen(points_.size(), false);
         for (std::size_t q = 0; q < quads_.size(); ++q) {
             for (const Index n : quads_[q]) {
                 if (seen[index(n)]) continue;
@@ -239,7 +251,7 @@ private:
                 visit(index(facet_of_centre[q]), static_cast<Index>(q));
         });
         const std::vector<Index> nearest = nearest_with_quads(walk, over);
-        const mesh::Incidence round = mesh::quads_at_nodes(quads_, skin_.points.size());
+        const mesh::Incidence round = mesh::quads_at_nodes(quads_, points_.size());
         std::vector<Index> facet_at(shape_.points.size(), -1);
         for (std::size_t i = 0; i < shape_.triangles.size(); ++i) {
             for (const Index p : shape_.triangles[i]) {
@@ -511,7 +523,7 @@ private:
             const std::size_t own = mesh_->order() == 1 ? k : (worst_ + 3 * (k % 2)) % 4;
             const Quad whole = mesh::skin_quad(*mesh_, item_[worst_]).nodes;
             const Index from = whole[own], to = whole[(own + 1) % 4];
-            result_.source_side = (node(to % row) - node(from % row)).norm();
+            result_.source_side = (skin_.points[index(to % row)] - skin_.points[index(from % row)]).norm();
             result_.along_layers = from / row != to / row;
         }
         if (2 * most >= result_.found) result_.misfit = Misfit::straight;
@@ -519,7 +531,8 @@ private:
 
     const mesh::HexMesh* mesh_;
     const Skin& skin_;
-    const std::vector<Quad>& quads_;
+    std::vector<Quad> quads_;  ///< corners are indices of `points_`
+    std::vector<Vec3> points_; ///< the nodes of the quads
     const std::vector<std::size_t>& item_;
     const std::vector<double>& side_;
     surface::FaceShape shape_;

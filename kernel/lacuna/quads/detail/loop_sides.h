@@ -18,6 +18,8 @@ public:
     [[nodiscard]] bool is_clear(Index a, Index b) const;
 
     [[nodiscard]] const Eigen::AlignedBox2d& box() const { return whole_; }
+    /// A lower bound of the distance between two loops: the least distance of their groups of sides.
+    [[nodiscard]] double gap(const LoopSides& other) const;
 
 private:
     [[nodiscard]] bool passes(Index a, Index b, Index c, Index d) const;

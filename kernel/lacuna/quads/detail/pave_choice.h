@@ -51,7 +51,7 @@ public:
     /// The score of a row style with other cut weights. The attempt is not kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
     /// Try the weights of `cut_weight_rows()` as long as the region is small and the score can still improve.
-    /// With few quads, do so only if the best mesh is poor.
+    /// With few quads, or if the outline sets most irregular nodes, do so only if the best mesh is poor.
     void try_all_weights();
     /// Try triangles if no other method fills the region well.
     void try_triangles();
@@ -118,6 +118,9 @@ private:
     std::vector<std::uint64_t> finished_; ///< hashes of the attempts before they were finished
     bool is_good_grid_ = false;
     bool is_near_least_ = false; ///< whether the best attempt has nearly the least number of irregular nodes
+    /// Whether the best attempt has few irregular nodes beside those that topology demands, as between many
+    /// holes. Other cuts then only move them.
+    bool is_set_by_outline_ = false;
 };
 
 /// The sets of weights with which small regions are also cut, in the order of trial.
