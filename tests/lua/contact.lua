@@ -379,3 +379,17 @@ for _, x in ipairs { 55, 58 } do
   check.near(mesh:quality().volume, 60 * 40 * 6 + math.pi * 64 * 20, 60)
   check.that(mesh.report.near_misses[1] == nil, "shares its part of the plate")
 end
+
+-- Default sizes: a post does not make its plate fine.
+local posts = { ["Box(7) = {10, 10, 6, 3, 3, 8};"] = 2, ["Cylinder(7) = {10, 10, 6, 0, 0, 8, 2};"] = 6 }
+for post, most in pairs(posts) do
+  local plate, path = params.scratch .. "/plate.geo", params.scratch .. "/post.geo"
+  check.write(plate, 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 60, 40, 6};\n')
+  check.write(path, 'SetFactory("OpenCASCADE");\n' .. post .. "\n")
+  local wide = lacuna.load(plate):open_volume()
+  local alone = wide:sweep():quality().hexes
+  local mesh = lacuna.assembly { wide, lacuna.load(path):open_volume() }:sweep()
+  local hexes = mesh:quality().hexes
+  check.that(hexes <= most * alone, ("%s: %d hexahedra, its plate %d"):format(post, hexes, alone))
+  check.that(mesh:quality().min_scaled_jacobian >= 0.3, post)
+end

@@ -41,6 +41,44 @@ bool are_alike(const std::vector<double>& a, const std::vector<double>& b)
     return true;
 }
 
+/// Four areas of the source divided by the length of its rims: a square's side, a circle's diameter, twice
+/// the width of a narrow strip or ring.
+double source_width(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    double area = 0, round = 0;
+    for (const FaceId face : volume.faces(Role::source)) area += face_area(model, face);
+    for (const Rim& rim : rims(model, volume.faces(Role::source)))
+        for (const EdgeUse& use : rim.uses) round += edge_length(model, use.edge);
+    return round > 0 ? 4 * area / round : 0;
+}
+
+/// For each member without a requested size: its default size. Members that touch get the largest of their
+/// default sizes, so that a small one does not make the edges that it shares with a large one fine, but at
+/// least `kDefaultGap` quads across the source. Curvature and narrow places reduce the size afterwards.
+std::vector<double> default_sizes(const SameEdges& edges)
+{
+    const std::span<const AssemblyMember> members = edges.members();
+    std::vector<double> own(members.size(), 0);
+    for (std::size_t m = 0; m < members.size(); ++m)
+        if (!members[m].options.size) own[m] = surface::default_size(*members[m].volume).length;
+    const auto is_free = [&](std::size_t m) { return own[m] > 0 && members[m].fixed == nullptr; };
+    geometry::UnionFind touching(members.size());
+    for (const SharedFace& face : edges.shared())
+        if (is_free(face.a) && is_free(face.b)) touching.unite_least(face.a, face.b);
+    std::map<std::size_t, double> largest;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        double& size = largest[touching.find(m)];
+        size = std::max(size, own[m]);
+    }
+    std::vector<double> sizes;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const double coarsest = source_width(*members[m].volume) / kDefaultGap;
+        sizes.push_back(std::max(own[m], std::min(largest.at(touching.find(m)), coarsest)));
+    }
+    return sizes;
+}
+
 } // namespace
 
 std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count)
@@ -66,7 +104,7 @@ EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
       classes_(edges.size()),
       layers_(edges.members().size(), 1),
       levels_(edges.members(), edges.shared()),
-      spacing_(edges.members().size(), 0)
+      spacing_(default_sizes(edges))
 {
     for (std::size_t e = 0; e < edges.size(); ++e) {
         classes_.unite(edges.set_of(e), e);
@@ -559,7 +597,6 @@ std::vector<double> EdgeCounts::spread(std::size_t e, int count) const
 double EdgeCounts::size(std::size_t m, const Vec3& p) const
 {
     if (edges_.members()[m].options.size) return edges_.members()[m].options.size(p);
-    if (spacing_[m] == 0) spacing_[m] = surface::default_size(*edges_.members()[m].volume).length;
     return spacing_[m];
 }
 

@@ -195,8 +195,8 @@ private:
     std::set<std::size_t> asked_; ///< classes with a number requested by the user
     /// For each class, the largest `Kept` of its edges.
     std::map<std::size_t, SameEdges::Kept> kept_of_class_;
-    std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
-    mutable std::vector<double> spacing_; ///< for each member: default size; 0: not yet known
+    std::map<std::size_t, int> bumps_; ///< number of sides added to each class
+    std::vector<double> spacing_;      ///< for each member: default size
 };
 
 } // namespace lacuna::sweep
