@@ -184,6 +184,23 @@ Box(1) = {0,0,0, 120,90,40};  Box(2) = {%s, 60,40,30};]]):format(place))
   end
 end
 
+-- Pieces of cuts that cross a bore share the common part of their cut faces.
+do
+  local shell = solids("chamber", [[
+Cylinder(1) = {0,0,0, 0,0,134, 100};  Cylinder(2) = {0,0,0, 0,0,134, 12.5};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])
+  local whole = shell:open_volume { source = { facing = { 0, 0, -1 }, kind = "plane" },
+    target = { facing = { 0, 0, 1 }, kind = "plane" }, walls = "auto", name = "shell" }
+  local low, rest = table.unpack(whole:cut { plane = { { 0, 0, 40 }, { 0, 0, 1 } } })
+  local middle, high = table.unpack(rest:cut { plane = { { 0, 0, 90 }, { 0, 0, 1 } } })
+  local function half(piece, y)
+    local parts = piece:cut { plane = { { 0, y, 0 }, { 0, y, 0 } } }
+    return parts[#parts]
+  end
+  local mesh = lacuna.assembly { half(low, 5), middle, half(high, -5) }:sweep { size = 20 }
+  check.that(mesh:quality().min_scaled_jacobian > 0.3, "chamber")
+end
+
 -- --- levels at a rim ---------------------------------------------------------------------------------------
 
 do

@@ -231,8 +231,12 @@ struct SideOfPair {
 bool curve_runs_through(const Model& model, EdgeId id, const std::vector<Vec3>& line, const OnLine& place,
                         const Vec3& p, double within)
 {
-    if (!has_curve(model, id, line) || place.distance > within + geometry::sag(line)) return false;
+    if (!has_curve(model, id, line)) return false;
     const geometry::PolylinePlace on = geometry::place_at(geometry::arc_lengths(line), place.at);
+    // An arc of less than half a turn is not higher than half its chord.
+    if (on.segment + 1 == line.size() ||
+        place.distance > within + (line[on.segment + 1] - line[on.segment]).norm() / 2)
+        return false;
     return (curve_beside(model, model[id], on.segment, on.fraction).place - p).norm() <= within;
 }
 
