@@ -40,14 +40,13 @@ namespace {
 void prove_sealed(const OpenVolume& volume)
 {
     const Model& model = volume.model;
-    for (std::size_t e = 0; e < model.edges.size(); ++e) {
-        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
-        if (uses.size() == 2 && uses[0].reversed != uses[1].reversed) continue;
+    if (const std::optional<EdgeId> edge = unpaired_edge(model)) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(*edge);
         throw NotClosed(
             Message("closure.not_watertight",
                     "after closing, {} belongs to {} face{}{} instead of two faces that use it in "
                     "opposite directions",
-                    entity_of(model, EdgeId(e)), found(uses.size()), uses.size() == 1 ? "" : "s",
+                    entity_of(model, *edge), found(uses.size()), uses.size() == 1 ? "" : "s",
                     uses.size() == 2 ? " that use it in the same direction" : "")
                 .remedy("check the faces next to it"));
     }

@@ -440,7 +440,7 @@ private:
 std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& context)
 {
     if (classify(volume).value == VolumeClass::V && !no_tube(volume).empty()) {
-        auto filled = fill_flat_loops(volume.model, all_faces(volume.model), context);
+        auto filled = fill_free_loops(volume.model, all_faces(volume.model), Missing::flat, context);
         if (!filled) return std::nullopt;
         return std::move(filled->volume);
     }

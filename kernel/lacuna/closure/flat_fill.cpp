@@ -59,9 +59,6 @@ std::vector<FaceId> faces_at(const Model& model, const Rim& rim)
     return {faces.begin(), faces.end()};
 }
 
-/// Kinds of missing faces that loops are filled with: flat faces only, or any.
-enum class Missing { flat, any };
-
 std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const RunContext& context)
 {
     Model& model = filling.volume.model;
@@ -155,17 +152,6 @@ bool prove(FlatFilling& filling, const RunContext& context)
     return filling.closure.watertight;
 }
 
-/// Fill the free loops of some faces, prove the result and note what is assumed.
-std::optional<FlatFilling> fill_and_note(const Model& model, const std::vector<FaceId>& faces,
-                                         Missing missing, const RunContext& context)
-{
-    auto filled = fill_loops(model, faces, missing, context);
-    if (!filled || !prove(*filled, context)) return std::nullopt;
-    note_closed_holes(model, faces, filled->volume, RolesBy::finding, filled->closure);
-    note_open_rims(filled->volume, RolesBy::finding, filled->closure);
-    return filled;
-}
-
 /// Make the new faces that are inclined to the source by at most 90° less `kCreaseAngle` the target; if there
 /// are none, the least inclined ones. The other new faces stay walls.
 void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source)
@@ -243,16 +229,14 @@ std::vector<FlatRegion> flat_regions(const Model& model, const std::vector<Loop>
     return regions;
 }
 
-std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector<FaceId>& faces,
-                                           const RunContext& context)
+std::optional<FlatFilling> fill_free_loops(const Model& model, const std::vector<FaceId>& faces,
+                                           Missing missing, const RunContext& context)
 {
-    return fill_and_note(model, faces, Missing::flat, context);
-}
-
-std::optional<FlatFilling> fill_all_loops(const Model& model, const std::vector<FaceId>& faces,
-                                          const RunContext& context)
-{
-    return fill_and_note(model, faces, Missing::any, context);
+    auto filled = fill_loops(model, faces, missing, context);
+    if (!filled || !prove(*filled, context)) return std::nullopt;
+    note_closed_holes(model, faces, filled->volume, RolesBy::finding, filled->closure);
+    note_open_rims(filled->volume, RolesBy::finding, filled->closure);
+    return filled;
 }
 
 std::optional<FlatFilling> fill_missing_end(const OpenVolume& volume, const RunContext& context)

@@ -19,7 +19,7 @@ using namespace topology;
 std::optional<Reading> read_bowl(const Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context)
 {
-    auto filled = fill_flat_loops(model, faces, context);
+    auto filled = fill_free_loops(model, faces, Missing::flat, context);
     if (!filled) return std::nullopt;
     auto bowl = part_bowl(filled->volume, context);
     if (!bowl) return std::nullopt;

@@ -114,14 +114,14 @@ std::optional<Reading> without_ends(FlatFilling filled, const RunContext& contex
     return reading;
 }
 
-/// The reading in which each missing face has the shape that its rim determines (`fill_all_loops()`). Its
+/// The reading in which each missing face has the shape that its rim determines (`fill_free_loops()`). Its
 /// ends are found on the sealed skin, as for a volume without missing faces.
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
     // Filling throws if a new face shares an edge with two other faces.
     auto filled = unless_refused([&] {
-                      return fill_all_loops(model, faces, context);
+                      return fill_free_loops(model, faces, Missing::any, context);
                   }).value_or(std::nullopt);
     if (!filled || filled->channel || filled->closure.void_faces.empty()) return std::nullopt;
     const Model skin = filled->volume.model;
@@ -229,7 +229,8 @@ Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const Ru
         return ring;
     }
     Message why = why_no_roles(model, faces, context);
-    auto filled = free_edges(open).empty() ? fill_flat_loops(model, faces, context) : std::nullopt;
+    auto filled = free_edges(open).empty() ? fill_free_loops(model, faces, Missing::flat, context)
+                                           : std::nullopt;
     auto reading = filled ? without_ends(std::move(*filled), context) : std::nullopt;
     if (!reading) throw InvalidInput(std::move(why));
     reading->no_roles = std::move(why);
@@ -256,7 +257,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed, context);
     if (found.empty()) // the likeliest candidates cannot be sealed; less likely ones may be
         found = voids(model, less_likely(model, faces, kMostSealed, seals, context), kMostSealed, context);
-    auto flat = fill_flat_loops(model, faces, context);
+    auto flat = fill_free_loops(model, faces, Missing::flat, context);
     const bool dropped = prefer_flat(found, flat, context);
     const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });
     if (auto filled = fill_flat(std::move(flat), faces, told, context)) add_filled(found, std::move(*filled));

@@ -36,15 +36,6 @@ bool touch(const Corners& a, const Corners& b, double tolerance)
     return holds_corner(a, b) || holds_corner(b, a);
 }
 
-bool is_closed(const Model& model)
-{
-    for (std::size_t e = 0; e < model.edges.size(); ++e) {
-        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
-        if (uses.size() != 2 || uses[0].reversed == uses[1].reversed) return false;
-    }
-    return true;
-}
-
 /// A void face, a face that it touches, and the facets that touch.
 struct Contact {
     std::pair<std::size_t, std::size_t> faces;
@@ -89,6 +80,15 @@ std::optional<std::pair<std::size_t, std::size_t>> first_crossed(const Model& mo
 }
 
 } // namespace
+
+std::optional<EdgeId> unpaired_edge(const Model& model)
+{
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() != 2 || uses[0].reversed == uses[1].reversed) return EdgeId(e);
+    }
+    return std::nullopt;
+}
 
 std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunContext& context)
 {
@@ -141,7 +141,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
     };
     made_tree.overlaps(made_tree, visit_with(made));
     made_tree.overlaps(geometry::FacetTree(model.points, given.triangles, context), visit_with(given));
-    if (!first && !contacts.empty() && is_closed(model)) first = first_crossed(model, contacts, context);
+    if (!first && !contacts.empty() && !unpaired_edge(model)) first = first_crossed(model, contacts, context);
     if (!first) return std::nullopt;
     return FaceCrossing{FaceId(first->first), FaceId(first->second)};
 }
@@ -153,7 +153,7 @@ double enclosed_volume(const OpenVolume& volume)
 
 bool is_watertight(const OpenVolume& volume)
 {
-    return is_closed(volume.model) && enclosed_volume(volume) > 0;
+    return !unpaired_edge(volume.model) && enclosed_volume(volume) > 0;
 }
 
 } // namespace lacuna::closure

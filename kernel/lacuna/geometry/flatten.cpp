@@ -256,10 +256,7 @@ void choose_map(const Facets& facets, const std::vector<Segment>& boundary, doub
     const Positions conformal = flat::conformal(facets);
     if (good(FlatMap::rigid, flat::as_rigid_as_possible(facets, conformal, settled))) return;
     if (good(FlatMap::injective, flat::injective(facets, conformal, settled))) return;
-    const Positions convex = flat::convex(facets);
-    if (good(FlatMap::injective, flat::injective(facets, convex, settled))) return;
-    if (good(FlatMap::conformal, conformal)) return;
-    good(FlatMap::convex, convex);
+    good(FlatMap::injective, flat::injective(facets, flat::convex(facets), settled));
 }
 
 } // namespace

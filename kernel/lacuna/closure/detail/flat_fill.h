@@ -27,28 +27,29 @@ struct FlatRegion {
 /// The flat faces that the flat loops among `loops` bound. Loops that are not flat are ignored.
 std::vector<FlatRegion> flat_regions(const topology::Model& model, const std::vector<topology::Loop>& loops);
 
-/// Fill the free loops of some faces with flat faces. Coplanar nested loops bound one face with holes. Some
-/// loops get several faces:
+/// Kinds of missing faces that loops are filled with.
+enum class Missing {
+    flat, ///< flat faces
+    any,  ///< also round walls that join pairs of loops (see `add_tubes()`); any other loop gets one face of
+          ///< the shape that the loop determines. If it determines none, `guess_of_bent()` reports the face.
+};
+
+/// Fill the free loops of some faces. Coplanar nested loops bound one flat face with holes. Some loops get
+/// several flat faces:
 /// - a loop in two planes, such as that of a missing end and an adjacent missing wall: two faces that meet in
 ///   a straight void edge;
 /// - the loop of a groove that lacks its ends and its mouth: a face for each end and one for the mouth;
 /// - the loop of a channel that lacks its ends and one wall: two flat ends, and a wall that may be bent.
-/// @return  empty if a loop is neither flat nor one of these, or if the result is not sealed or crosses
-///         itself.
+/// @return  empty if a loop is neither flat nor one of these and `missing` is `flat`, or if the result is not
+///         sealed or crosses itself.
 /// @throw InvalidInput  the faces cannot be oriented.
 /// @throw Cancelled
-std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const std::vector<FaceId>& faces,
-                                           const RunContext& context);
+std::optional<FlatFilling> fill_free_loops(const topology::Model& model, const std::vector<FaceId>& faces,
+                                           Missing missing, const RunContext& context);
 
-/// Fill the free loops as `fill_flat_loops()` does, and join pairs of loops by round walls (see
-/// `add_tubes()`). Any other loop gets one face of the shape that the loop determines. If a loop determines
-/// no shape, `guess_of_bent()` reports the face.
-std::optional<FlatFilling> fill_all_loops(const topology::Model& model, const std::vector<FaceId>& faces,
-                                          const RunContext& context);
-
-/// Fill the free loops of a volume without a target as `fill_flat_loops()` does. New faces that are inclined
-/// to the source by at most 60° form the target. If there are none, the least inclined new faces form the
-/// target. The other new faces are walls, such as the risers of a target at several heights.
+/// Fill the free loops of a volume without a target with flat faces, as `fill_free_loops()` does. New faces
+/// that are inclined to the source by at most 60° form the target. If there are none, the least inclined new
+/// faces form the target. The other new faces are walls, such as the risers of a target at several heights.
 /// @return  empty in any of these cases:
 /// - every loop is planar and gets a face of its own;
 /// - a loop lies on a sphere, a circular cylinder or a cone, or belongs to a channel

@@ -9,6 +9,9 @@
 
 namespace lacuna::closure {
 
+/// The first edge that does not belong to two faces that use it in opposite directions.
+std::optional<EdgeId> unpaired_edge(const topology::Model& model);
+
 /// A void face and another face (void or given) with crossing facets.
 using FaceCrossing = std::pair<FaceId, FaceId>;
 

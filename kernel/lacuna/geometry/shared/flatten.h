@@ -15,9 +15,7 @@ enum class FlatMap {
     plane,     ///< planar facets: an isometry
     ring,      ///< a tube mapped to a ring, nearly conformal
     rigid,     ///< as rigid as possible
-    injective, ///< least symmetric Dirichlet energy, no flipped triangles
-    conformal, ///< least squares conformal
-    convex,    ///< harmonic to a disc: one-to-one for every shape
+    injective, ///< least symmetric Dirichlet energy, no flipped triangles unless the first map has some
 };
 
 /// Options of `flatten()`.
@@ -46,10 +44,8 @@ struct Flattened {
 /// 2. The least squares conformal map (Lévy et al. 2002), made as rigid as possible by local and global steps
 ///    (Liu et al. 2008).
 /// 3. The map of least symmetric Dirichlet energy, by reweighted steps (Rabinovich et al. 2017) from the
-///    conformal map.
+///    conformal map. If that map has flipped triangles, it is not changed.
 /// 4. As 3, from the harmonic map to a disc.
-/// 5. The conformal map itself.
-/// 6. The harmonic map itself.
 ///
 /// If no map is one-to-one, the one with the fewest flips is returned, and `folded` is set. The result has
 /// the area of the facets in space, and is rotated to agree best with their Newell plane.
