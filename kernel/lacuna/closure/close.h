@@ -140,6 +140,7 @@ enum class Assumed {
     shape,
     straight,   ///< that they are flat, or walls that are straight
     round_wall, ///< that a straight round wall joins two given rims
+    rim,        ///< that no more faces are missing at a rim than it shows
 };
 
 /// An assumption about missing faces that changes the volume by more than 2 % if it is wrong.

@@ -51,13 +51,6 @@ struct ToFill {
     std::vector<Loop> flat, bent;
 };
 
-/// The faces at a free loop.
-std::vector<FaceId> faces_at(const Model& model, const Rim& rim)
-{
-    std::set<FaceId> faces;
-    for (const EdgeUse& use : rim.uses) faces.insert(model.uses_of_edge(use.edge).front().face);
-    return {faces.begin(), faces.end()};
-}
 
 std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const RunContext& context)
 {
@@ -89,13 +82,6 @@ std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const
             (is_flat(model, {part.uses}) ? result.flat : result.bent).push_back(std::move(part));
         filling.each_alone = false;
         filling.channel = filling.channel || split->channel;
-        if (split->is_assumed)
-            assume(filling.closure,
-                   Message("closure.edge_assumed",
-                           "flat faces that meet in straight edges are assumed to be missing beside {}",
-                           entities_of(model, faces_at(model, rim)))
-                       .remedy("if more faces are missing there, give them"),
-                   1);
     }
     return result;
 }
@@ -236,13 +222,15 @@ std::optional<FlatFilling> fill_free_loops(const Model& model, const std::vector
     if (!filled || !prove(*filled, context)) return std::nullopt;
     note_closed_holes(model, faces, filled->volume, RolesBy::finding, filled->closure);
     note_open_rims(filled->volume, RolesBy::finding, filled->closure);
+    note_unshown_planes(filled->volume.model, filled->closure);
     return filled;
 }
 
 std::optional<FlatFilling> fill_missing_end(const OpenVolume& volume, const RunContext& context)
 {
-    if (std::ranges::any_of(free_loops(volume),
-                            [&](const Rim& rim) { return lies_on_round_face(volume.model, {rim.uses}); }))
+    if (std::ranges::any_of(free_loops(volume), [&](const Rim& rim) {
+            return lies_on_quadric(volume.model, {rim.uses}, is_round);
+        }))
         return std::nullopt;
     auto filled = fill_loops(volume.model, all_faces(volume.model), Missing::flat, context);
     if (!filled || filled->each_alone || filled->channel || !prove(*filled, context)) return std::nullopt;

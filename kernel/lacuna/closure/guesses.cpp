@@ -289,27 +289,74 @@ std::vector<ClosedHole> closed_holes(std::size_t given, const Model& own,
     return holes;
 }
 
-/// The given faces beside a void face.
-std::vector<NamedEntity> given_beside(const Model& model, FaceId face)
+/// The given faces beside some void faces.
+std::vector<NamedEntity> given_beside(const Model& model, const std::vector<FaceId>& faces)
 {
     std::set<int> tags;
-    for (const FaceId other : faces_beside(model, face))
-        if (model[other].origin == Origin::given) tags.insert(model[other].tag);
+    for (const FaceId face : faces)
+        for (const FaceId other : faces_beside(model, face))
+            if (model[other].origin == Origin::given) tags.insert(model[other].tag);
     std::vector<NamedEntity> beside;
     for (const int tag : tags) beside.push_back({"face", tag});
     return beside;
 }
 
 /// Note that one face is assumed in a rim that more faces may fill.
-void note_one_wall(const Model& model, FaceId face, Closure& closure)
+void note_one_wall(const Model& model, FaceId face, Closure& closure, Assumed what = Assumed::shape)
 {
     assume(closure,
            Message("closure.wall_assumed",
                    "the rim of {} does not determine how many faces are missing beside {}; one face is "
                    "assumed",
-                   entity_of(model, face), given_beside(model, face))
+                   entity_of(model, face), given_beside(model, {face}))
                .remedy("if several faces or a whole part are missing there, give them"),
-           1);
+           1, what);
+}
+
+/// Whether a void face meets another void face.
+bool touches_void_face(const Model& model, FaceId face)
+{
+    return std::ranges::any_of(faces_beside(model, face),
+                               [&](FaceId other) { return model[other].origin == Origin::made_void; });
+}
+
+/// Whether the given edges of a flat void face show its plane: three straight sides, or one and a curve. Two
+/// straight sides that meet or are parallel are coplanar whatever is missing there, and a round face may end
+/// in a planar curve as well.
+bool shows_plane(const Model& model, FaceId face)
+{
+    const auto is_given = [&](const EdgeUse& use) {
+        return std::ranges::any_of(model.uses_of_edge(use.edge), [&](const FaceUse& by) {
+            return model[by.face].origin != Origin::made_void;
+        });
+    };
+    std::size_t straight = 0;
+    bool curved = false;
+    for (const Loop& loop : model[face].loops) {
+        for (std::size_t i = 0; i < loop.uses.size(); ++i) {
+            const EdgeUse use = loop.uses[i],
+                          before = loop.uses[(i + loop.uses.size() - 1) % loop.uses.size()];
+            if (!is_given(use)) continue;
+            if (!is_straight(model, {use}))
+                curved = true;
+            else if (!is_given(before) || !is_straight(model, {before}) || turns_sharply(model, before, use))
+                ++straight;
+        }
+    }
+    return straight + (curved ? 2 : 0) > 2;
+}
+
+/// Whether all given faces beside a flat void face are perpendicular to it.
+bool is_square_to_given(const Model& model, FaceId face)
+{
+    const Vec3 normal = mean_plane(model, face).normal;
+    return std::ranges::all_of(faces_beside(model, face), [&](FaceId other) {
+        return model[other].origin == Origin::made_void ||
+               std::ranges::all_of(model[other].triangles, [&](const Triangle& t) {
+                   const Vec3 area = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+                   return std::abs(area.dot(normal)) <= kParallel * area.norm();
+               });
+    });
 }
 
 /// The given faces at a rim of a void face.
@@ -359,16 +406,12 @@ void note_end_inside(const OpenVolume& sealed, FaceId wall, const std::vector<Ri
 void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
 {
     std::vector<FaceId> flat;
-    std::set<FaceId> beside;
     double largest = 0;
     for (const FaceId face : closure.void_faces) {
         const std::vector<Loop>& loops = model[face].loops;
         const auto radius = loops.size() == 1 ? radius_of_circle(model, {loops.front().uses}) : std::nullopt;
-        std::set<FaceId> given = faces_beside(model, face);
-        std::erase_if(given, [&](FaceId other) { return model[other].origin != Origin::given; });
-        if (!radius || given.empty() || face_round_hole(model, face)) continue;
+        if (!radius || given_beside(model, {face}).empty() || face_round_hole(model, face)) continue;
         flat.push_back(face);
-        beside.merge(given);
         largest = std::max(largest, *radius);
     }
     if (flat.empty()) return;
@@ -377,7 +420,7 @@ void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
            Message("closure.flat_assumed",
                    "flat faces are assumed in the circles beside {}: {}. Part of a ball, a cone or a ring "
                    "can end in such a circle, too, and half a ball would change the volume by {:.2g} %",
-                   entities_of(model, beside), entities_of(model, flat), 100 * half_ball / enclosed)
+                   given_beside(model, flat), entities_of(model, flat), 100 * half_ball / enclosed)
                .remedy("if a true face is not flat or has a hole, give it"),
            1, Assumed::straight);
 }
@@ -402,7 +445,7 @@ std::optional<Message> guess_of_bent(const OpenVolume& sealed, const Closure& cl
         if (!is_in_doubt(sealed, enclosed, face, by)) continue;
         return Message(by == RolesBy::person ? "closure.shape_open" : "topology.shape_open",
                        "the shape of the missing face beside {} is ambiguous: its rim is not planar",
-                       given_beside(model, face));
+                       given_beside(model, {face}));
     }
     return std::nullopt;
 }
@@ -498,9 +541,12 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
     for (const FaceId face : closure.void_faces) {
         // If the user named the roles, exactly one wall is missing at such a rim. Otherwise several faces may
         // be missing there.
-        if (by == RolesBy::finding && !is_membrane(model, face) &&
-            (is_untold(model, face) || closes_hole_in_bent_face(model, face)))
-            note_one_wall(model, face, closure);
+        if (by == RolesBy::finding && !is_membrane(model, face)) {
+            if (is_untold(model, face) || closes_hole_in_bent_face(model, face))
+                note_one_wall(model, face, closure);
+            else if (has_only_quadric(model, face))
+                note_one_wall(model, face, closure, Assumed::rim);
+        }
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
         assume(closure,
                Message("closure.rough_rim", "the rim of {} is rough and is closed by a smooth face",
@@ -508,6 +554,22 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                    .remedy("if the true face bulges otherwise, give it"),
                1);
     }
+}
+
+void note_unshown_planes(const Model& model, Closure& closure)
+{
+    std::vector<FaceId> unshown;
+    for (const FaceId face : closure.void_faces)
+        if (has_flat_loops(model, face) && touches_void_face(model, face) && !shows_plane(model, face) &&
+            !is_square_to_given(model, face))
+            unshown.push_back(face);
+    if (unshown.empty()) return;
+    assume(closure,
+           Message("closure.edge_assumed",
+                   "flat faces that meet in straight edges are assumed to be missing beside {}",
+                   given_beside(model, unshown))
+               .remedy("if more faces are missing there, give them"),
+           1, Assumed::rim);
 }
 
 void note_joined_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)

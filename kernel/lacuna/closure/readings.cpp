@@ -194,10 +194,10 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, std::vect
     if (!differ && !untold && !reading.guess) return;
     auto told = read_filled(model, faces, context);
     const bool is_sure = told && !told->guess &&
-                         (differ
-                              ? !closes_hole(told->volume.model, *told->closure) &&
-                                    assumes_only(*told->closure, {Assumed::round_wall})
-                              : assumes_only(*told->closure, {Assumed::straight, Assumed::round_wall}));
+                         (differ ? !closes_hole(told->volume.model, *told->closure) &&
+                                       assumes_only(*told->closure, {Assumed::round_wall, Assumed::rim})
+                                 : assumes_only(*told->closure,
+                                                {Assumed::straight, Assumed::round_wall, Assumed::rim}));
     // A reading without `guess` is one connected body. A filling with several parts must not replace it.
     if (is_sure && ((!differ && reading.guess) ||
                     connected_parts(told->volume.model, all_faces(told->volume.model)).size() == 1)) {

@@ -284,14 +284,19 @@ std::optional<double> QuadricSheet::height(const Vec2& place) const
     return off * quadric.unit;
 }
 
-bool is_pair_of_planes(const Quadric& quadric) { return off_plane_pair(quadric.form) <= kOffShape; }
+bool is_bent(const Quadric& quadric) { return off_plane_pair(quadric.form) > kOffShape; }
+
+bool is_round(const Quadric& quadric)
+{
+    return is_bent(quadric) && std::min(off_ball(quadric.form), off_round_cone(quadric.form)) <= kOffShape;
+}
 
 RimShapes shapes_of_rim(const Model& model, const std::vector<Loop>& loops, const geometry::Plane& plane)
 {
     const auto shapes_as = [&](RimIs rim) {
         RimShapes shapes = shapes_through(rim_places(model, loops, rim), plane);
         std::erase_if(shapes.told, [&](const QuadricSheet& sheet) {
-            return is_pair_of_planes(sheet.quadric) && holds_given_face(model, loops, sheet.quadric);
+            return !is_bent(sheet.quadric) && holds_given_face(model, loops, sheet.quadric);
         });
         return shapes;
     };

@@ -246,8 +246,7 @@ bool ends_straight_groove(const Model& model, const Rim& rim, const std::vector<
 }
 
 /// Separate the ends of a straight groove from its loop. Runs in the plane of the mouth are parts of the
-/// mouth, not ends. If the given edges of the mouth are only two parallel straight lines, they do not show
-/// that the mouth is flat; this is then an assumption.
+/// mouth, not ends.
 /// @return  empty if the loop is not that of a straight groove; the model is then unchanged
 std::optional<SplitLoop> part_groove(Model& model, const Rim& rim, std::vector<Run> ends)
 {
@@ -263,13 +262,8 @@ std::optional<SplitLoop> part_groove(Model& model, const Rim& rim, std::vector<R
         });
     };
     if (std::erase_if(ends, in_mouth) > 0) return part_groove(model, rim, std::move(ends));
-    std::size_t lines = 0;
-    for (std::size_t r = 0; r < ends.size(); ++r) {
-        const Run side = between(rim, ends, r);
-        if (side.count > 0) lines += 1 + turns(use_places(model, uses_of(rim, side)));
-    }
     model = std::move(tried);
-    return SplitLoop{.parts = std::move(parts), .is_assumed = lines <= 2};
+    return SplitLoop{std::move(parts)};
 }
 
 } // namespace
@@ -281,8 +275,7 @@ std::optional<SplitLoop> split_loop(Model& model, const Rim& rim)
     if (const auto half = half_run(run)) {
         const bool one = tells_plane(model, rim, *half),
                    other = tells_plane(model, rim, between(rim, {&*half, 1}, 0));
-        if (one || other)
-            return SplitLoop{.parts = cut_off(model, rim, {*half}), .is_assumed = !one || !other};
+        if (one || other) return SplitLoop{cut_off(model, rim, {*half})};
     }
     const std::vector<Run> ends = groove_ends(model, rim, run);
     if (auto groove = part_groove(model, rim, ends)) return groove;

@@ -5,7 +5,6 @@
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/outline.h>
-#include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/shared/criteria.h>
@@ -58,11 +57,12 @@ bool is_hole_in_round_face(const Model& model, const Loop& loop)
 {
     std::set<FaceId> beside;
     for (const EdgeUse& use : loop.uses)
-        for (const FaceUse& by : model.uses_of_edge(use.edge)) beside.insert(by.face);
+        for (const FaceUse& by : model.uses_of_edge(use.edge))
+            if (model[by.face].origin != Origin::made_void) beside.insert(by.face);
     std::vector<RoundShape> shapes;
     for (const FaceId face : beside) {
         const auto shape = round_shape(model, face);
-        if (!shape) return beside.size() == 1;
+        if (!shape) return beside.size() == 1 && !plane_of(model, face);
         shapes.push_back(*shape);
     }
     if (shapes.empty()) return false;
@@ -408,18 +408,18 @@ bool is_ruled_between_alike(const Model& model, const Loop& loop)
     return false;
 }
 
-bool lies_on_round_face(const Model& model, const Loop& loop)
+bool lies_on_quadric(const Model& model, const Loop& loop, bool (&is_wanted)(const Quadric&))
 {
     const std::vector<Vec3> places = loop_places(model, loop.uses);
     return std::ranges::any_of(shapes_of_rim(model, {loop}, geometry::newell_plane({&places, 1})).told,
-                               [](const QuadricSheet& sheet) { return !is_pair_of_planes(sheet.quadric); });
+                               [&](const QuadricSheet& sheet) { return is_wanted(sheet.quadric); });
 }
 
 bool tells_face(const Model& model, const Loop& loop, const RunContext& context)
 {
     return is_ruled_between_alike(model, loop) ||
            (!is_hole_in_round_face(model, loop) &&
-            (lies_on_round_face(model, loop) || fill_round_patch(model, loop, context)));
+            (lies_on_quadric(model, loop, is_bent) || fill_round_patch(model, loop, context)));
 }
 
 std::optional<std::vector<Loop>> split_touching(Model& model, const Rim& rim, const RunContext& context)
@@ -437,7 +437,8 @@ std::optional<std::vector<Loop>> split_touching(Model& model, const Rim& rim, co
 
 bool closes_hole_in_bent_face(const Model& model, FaceId face)
 {
-    return !has_flat_loops(model, face) && is_hole_in_round_face(model, model[face].loops.front());
+    return model[face].loops.size() == 1 && !has_flat_loops(model, face) &&
+           is_hole_in_round_face(model, model[face].loops.front());
 }
 
 bool is_untold(const Model& model, FaceId face)
@@ -445,6 +446,16 @@ bool is_untold(const Model& model, FaceId face)
     if (rims(model, {face}).size() == 2) return is_ring_at_step(model, face);
     return !has_flat_loops(model, face) && !is_about_flat(model, face) && !round_shape(model, face) &&
            !cone_shape(model, face) && !tells_face(model, model[face].loops.front());
+}
+
+bool has_only_quadric(const Model& model, FaceId face)
+{
+    if (has_flat_loops(model, face) || is_about_flat(model, face) || round_shape(model, face) ||
+        cone_shape(model, face) || model[face].loops.size() > 1)
+        return false;
+    const Loop& loop = model[face].loops.front();
+    return !is_ruled_between_alike(model, loop) && !lies_on_quadric(model, loop, is_round) &&
+           lies_on_quadric(model, loop, is_bent) && !fill_round_patch(model, loop, {});
 }
 
 std::optional<Message> untold_face(const OpenVolume& sealed, const Closure& closure, double least)

@@ -57,6 +57,9 @@ void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& 
 ///   many faces are missing.
 void note_open_rims(const topology::OpenVolume& sealed, RolesBy by, Closure& closure);
 
+/// Note flat void faces that meet other void faces and whose given edges do not show their plane.
+void note_unshown_planes(const topology::Model& model, Closure& closure);
+
 /// Note void faces between two flat rims of given faces:
 /// - if the program found the roles: shoulders and whole branches may be missing there as well;
 /// - if a person named them: the plane of one rim may end the volume, where it crosses a face at the other

@@ -29,7 +29,11 @@ struct QuadricSheet {
     [[nodiscard]] std::optional<double> height(const Vec2& place) const;
 };
 
-bool is_pair_of_planes(const Quadric& quadric);
+/// Whether a quadric is not a pair of planes.
+bool is_bent(const Quadric& quadric);
+
+/// Whether a quadric is a sphere, a circular cylinder or a circular cone.
+bool is_round(const Quadric& quadric);
 
 /// Shapes of a face that follow from its non-planar rim.
 struct RimShapes {

@@ -13,9 +13,6 @@ struct SplitLoop {
     std::vector<topology::Loop> parts; ///< all but the last are planar
     bool channel = false;              ///< whether the loop is that of a channel: the first two parts are its
                                        ///< congruent ends
-    /// Whether the given edges of a planar part are only two straight edges that meet or are parallel. Two
-    /// such edges are always coplanar, so they do not show that a flat face is missing.
-    bool is_assumed = false;
 };
 
 /// Split a non-planar free loop by straight void edges into the loops of the faces that are missing there:

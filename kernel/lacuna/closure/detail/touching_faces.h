@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/closure/close.h>
+#include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/core/message.h>
 
 #include <optional>
@@ -13,13 +14,13 @@ namespace lacuna::closure {
 /// ruled face between these curves then fills the loop.
 bool is_ruled_between_alike(const topology::Model& model, const topology::Loop& loop);
 
-/// Whether a loop lies on a ball, a circular cylinder or a cone.
-bool lies_on_round_face(const topology::Model& model, const topology::Loop& loop);
+/// Whether a loop lies on a quadric of a wanted kind.
+bool lies_on_quadric(const topology::Model& model, const topology::Loop& loop,
+                     bool (&is_wanted)(const Quadric&));
 
 /// Whether the rim of one missing face determines its shape: the face is ruled between similar sides, or the
-/// rim lies on a sphere, a circular cylinder or a cone. A hole in one bent face, or in parts of one cylinder
-/// or sphere, does not determine the face: a bore or boss may be missing there. A ruled face is accepted even
-/// there.
+/// rim lies on a bent quadric. A hole in one bent face, or in parts of one cylinder or sphere, does not
+/// determine the face: a bore or boss may be missing there. A ruled face is accepted even there.
 bool tells_face(const topology::Model& model, const topology::Loop& loop, const RunContext& context = {});
 
 /// Split a free loop that runs around two or three adjacent missing faces into the loops of these faces.
@@ -36,6 +37,10 @@ std::optional<std::vector<topology::Loop>> split_touching(topology::Model& model
 /// Whether a void face closes a hole in one bent given face, or in parts of one cylinder or sphere. A whole
 /// bore or boss may be missing there.
 bool closes_hole_in_bent_face(const topology::Model& model, FaceId face);
+
+/// Whether nothing but a quadric that is not round determines the shape of a bent void face. A freeform face
+/// may end in such a rim as well.
+bool has_only_quadric(const topology::Model& model, FaceId face);
 
 /// Whether a void face is bent and its rim does not determine its shape; for a face with two rims, see
 /// `is_ring_at_step()`.
