@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/minimal_frame.h>
 
 #include <doctest/doctest.h>
 
@@ -233,4 +234,21 @@ TEST_CASE("points on a line or in one place give a proper rotation")
     const auto still = fit_rigid(spot, line, true);
     CHECK(still.rotation.isIdentity());
     CHECK(std::isfinite(still.rms));
+}
+
+TEST_CASE("the smallest rotation maps a direction onto another, also onto the opposite one")
+{
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 from(normal(random), normal(random), normal(random));
+        const Vec3 off(normal(random), normal(random), normal(random));
+        for (const Vec3& to :
+             {off, Vec3(-2 * from), Vec3(-2 * from + 1e-7 * off), Vec3(-2 * from + 1e-12 * off)}) {
+            const Eigen::Matrix3d turn = geometry::least_turn(from, to);
+            CHECK((turn * from.normalized() - to.normalized()).norm() < 1e-9);
+            CHECK((turn * turn.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-9);
+            CHECK(turn.determinant() > 0);
+        }
+    }
 }

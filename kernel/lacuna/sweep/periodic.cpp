@@ -3,7 +3,9 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/sweep/detail/member_edge.h>
 #include <lacuna/sweep/detail/shared_faces.h>
@@ -210,7 +212,7 @@ private:
             !(b_.normal.norm() > kRoundoff * b_.area))
             return found;
         const Vec3 from = a_.normal.normalized(), to = -b_.normal.normalized();
-        const Eigen::Matrix3d tilt = Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+        const Eigen::Matrix3d tilt = geometry::least_turn(from, to);
         const auto add = [&](const Eigen::Matrix3d& turn) {
             Isometry3d motion = Isometry3d::Identity();
             motion.linear() = turn;
@@ -262,15 +264,17 @@ private:
             const Vec3 tip = a_.reach * a_.normal.normalized(), other = -b_.reach * b_.normal.normalized();
             points.push_back({a_.centre + tip, b_.centre + other});
             points.push_back({a_.centre - tip, b_.centre - other});
-            const auto count = static_cast<Eigen::Index>(points.size());
-            Eigen::Matrix3Xd from(3, count), to(3, count);
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                from.col(static_cast<Eigen::Index>(i)) = points[i][0];
-                to.col(static_cast<Eigen::Index>(i)) = points[i][1];
-            }
-            const Eigen::Matrix4d fit = Eigen::umeyama(from, to, false);
             // With fewer points, the fit would not be more accurate than the given motion.
-            if (count > 4) motion.matrix() = fit;
+            if (points.size() > 4) {
+                std::vector<Vec3> from, to;
+                for (const auto& [before, after] : points) {
+                    from.push_back(before);
+                    to.push_back(after);
+                }
+                const geometry::RigidFit fit = geometry::fit_rigid(from, to, false);
+                motion.linear() = fit.rotation;
+                motion.translation() = fit.translation;
+            }
         }
         if (!fits(motion)) return std::nullopt;
         return motion;
