@@ -316,6 +316,31 @@ BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])
   check.that(not err:find("note", 1, true), err)
 end
 
+-- --- tubes through the plates at both ends of a shell ------------------------------------------------------
+
+do
+  local shell = solids("exchanger", [[
+Cylinder(1) = {0,0,0, 100,0,0, 34};  Cylinder(2) = {4,0,0, 92,0,0, 30};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(4) = {0,12,0, 100,0,0, 6};  Cylinder(5) = {0,-12,0, 100,0,0, 6};
+BooleanDifference(6) = { Volume{3}; Delete; }{ Volume{4,5}; Delete; };
+Cylinder(7) = {-15,12,0, 130,0,0, 6};  Cylinder(8) = {-15,-12,0, 130,0,0, 6};]])
+  local inner = shell:face { kind = "cylinder", radius = { 29, 31 } }
+  local tubes = shell:faces { kind = "cylinder", radius = { 5.9, 6.1 } } -- and the bores of the plates
+  local ends = shell:faces { kind = "plane", area = { 100, 120 } }
+  local function plate(x) return shell:face { kind = "plane", near = { x, 0, 25 } } end
+  local walls = { inner, table.unpack(tubes) }
+  for way, roles in ipairs {
+    { source = plate(4), target = plate(96), walls = walls },
+    { source = plate(4), target = plate(96), walls = { inner, tubes[5], tubes[6], table.unpack(ends) } },
+    { faces = { plate(4), plate(96), table.unpack(walls) } },
+  } do
+    local quality = shell:open_volume(roles):sweep({ size = 5 }):quality()
+    check.that(quality.certified and quality.min_scaled_jacobian >= 0.7, quality.min_scaled_jacobian)
+    check.that(math.abs(quality.volume / (92 * math.pi * (900 - 72)) - 1) < 0.005, way)
+  end
+end
+
 -- --- bores that cross --------------------------------------------------------------------------------------
 
 do

@@ -166,6 +166,46 @@ RoleRequest joined_request(RoleRequest request, const JoinedParts& joined)
     return request;
 }
 
+/// Leave out what contacts separate from the volume, such as the ends of a tube beyond the plates through
+/// which it passes, or the part of a plate outside a frame that stands on it. The volume is what is connected
+/// to a named end, if there is one, and to a face that no contact divides.
+/// @param model  before the faces were divided
+void leave_out_beyond_contacts(const Model& model, const JoinedParts& joined, RoleRequest& request,
+                               const RunContext& context)
+{
+    std::vector<std::size_t> parent(joined.model.faces.size());
+    for (std::size_t f = 0; f < joined.faces_of.size(); ++f)
+        for (const FaceId part : joined.faces_of[f]) parent[part.index()] = f;
+    std::set<FaceId> ends;
+    if (request.roles) {
+        ends.insert(request.roles->source.begin(), request.roles->source.end());
+        ends.insert(request.roles->target.begin(), request.roles->target.end());
+    }
+    const auto is_end = [&](FaceId face) { return ends.contains(face); };
+    const auto is_whole = [&](FaceId face) { return joined.faces_of[parent[face.index()]].size() == 1; };
+    std::vector<std::vector<FaceId>> parts = topology::connected_parts(joined.model,
+                                                                       named_faces(joined.model, request));
+    std::set<std::size_t> stays;
+    std::erase_if(parts, [&](const std::vector<FaceId>& part) {
+        if (std::ranges::none_of(part, is_whole) || (!ends.empty() && std::ranges::none_of(part, is_end)))
+            return false;
+        for (const FaceId face : part) stays.insert(parent[face.index()]);
+        return true;
+    });
+    std::set<FaceId> gone, whole;
+    for (const std::vector<FaceId>& part : parts) {
+        if (std::ranges::none_of(part, [&](FaceId f) { return stays.contains(parent[f.index()]); })) continue;
+        gone.insert(part.begin(), part.end());
+        for (const FaceId face : part) whole.emplace(parent[face.index()]);
+    }
+    each_list(request, [&](std::vector<FaceId>& faces) {
+        std::erase_if(faces, [&](FaceId face) { return gone.contains(face); });
+    });
+    if (!whole.empty())
+        log_line(context, formatted("note: left out beyond the faces in contact: {}",
+                                    topology::entities_of(model, whole)));
+}
+
 [[noreturn]] void refuse_parts(std::size_t count)
 {
     throw NotSweepable(Message("closure.fill_to",
@@ -441,7 +481,9 @@ Volume open_named(const Model& model, const RoleRequest& request, const RunConte
                                             request.find_walls, context);
     if (!joined) return open_apart(opening.model, opening.request, context);
     log_line(context, joined->note);
-    return open_apart(joined->model, joined_request(opening.request, *joined), context);
+    RoleRequest now = joined_request(opening.request, *joined);
+    if (!now.find_walls) leave_out_beyond_contacts(opening.model, *joined, now, context);
+    return open_apart(joined->model, now, context);
 }
 
 } // namespace

@@ -319,39 +319,7 @@ private:
         result.note = formatted("note: {} and {} touch; the area that they share does not bound the volume",
                                 entity_of(model_, original(first.a, first.face_a)),
                                 entity_of(model_, original(first.b, first.face_b)));
-        if (!all_follow_) leave_out_cut_off(result);
         return result;
-    }
-
-    /// Leave out the parts of a named face that a contact cuts off from all other named faces, if another
-    /// part meets such a face. Example: the part of a plate outside a frame that stands on it.
-    void leave_out_cut_off(JoinedParts& joined) const
-    {
-        std::map<FaceId, FaceId> whole; // of each part of a named face
-        for (const FaceId face : all_faces(model_))
-            if (is_named_[face.index()] != 0)
-                for (const FaceId part : joined.faces_of[face.index()]) whole.emplace(part, face);
-        std::vector<FaceId> named;
-        for (const auto& [part, face] : whole) named.push_back(part);
-        std::set<FaceId> met, left_out;
-        std::vector<std::vector<FaceId>> alone;
-        for (std::vector<FaceId>& connected : connected_parts(joined.model, named)) {
-            const FaceId face = whole.at(connected.front());
-            if (std::ranges::all_of(connected, [&](FaceId part) { return whole.at(part) == face; }))
-                alone.push_back(std::move(connected));
-            else
-                for (const FaceId part : connected) met.insert(whole.at(part));
-        }
-        for (const std::vector<FaceId>& parts : alone) {
-            const FaceId face = whole.at(parts.front());
-            if (!met.contains(face)) continue;
-            left_out.insert(face);
-            std::erase_if(joined.faces_of[face.index()],
-                          [&](FaceId part) { return std::ranges::find(parts, part) != parts.end(); });
-        }
-        if (!left_out.empty())
-            joined.note += formatted("; left out, because no other named face meets them there: parts of {}",
-                                     entities_of(model_, left_out));
     }
 
     const Model& model_;
