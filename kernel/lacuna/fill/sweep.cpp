@@ -335,7 +335,8 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
     const bool mixed = asked.options.fallback == sweep::Fallback::mixed;
     if (mixed) request.options.fallback = sweep::Fallback::none;
     // Ends that the user named are replaced by ends of pieces only if the fallback is `mixed`.
-    const bool may_cut = mixed || volume.roles_found || !has_given_ends(volume.volume);
+    const bool walls_alone = !has_given_ends(volume.volume) && !volume.volume.full_turn;
+    const bool may_cut = mixed || volume.roles_found || walls_alone;
     for (std::size_t next = 0;; ++next) {
         const Volume& now = other ? *other : volume;
         const bool pieces = has_pieces(now, context);
