@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/shared/minimal_frame.h>
 
+#include <lacuna/core/shared/criteria.h>
+
 #include <Eigen/Geometry>
 
 #include <cmath>
 
 namespace lacuna::geometry {
-
-namespace {
-
-/// Directions whose cosine is below -1 plus this are opposite, within a millionth of a radian: their cross
-/// product has lost half its digits.
-constexpr double kOpposite = 1e-12;
-
-} // namespace
 
 std::vector<Vec3> ways_along(std::span<const Vec3> middles, std::span<const double> widths)
 {
@@ -35,7 +29,7 @@ Eigen::Matrix3d least_turn(const Vec3& from, const Vec3& to)
     // Eigen's FromTwoVectors holds a singular value decomposition, which takes 8 s to compile.
     const Vec3 a = from.normalized(), b = to.normalized();
     const double cosine = b.dot(a);
-    if (cosine < -1 + kOpposite) {
+    if (cosine < -1 + kRoundoff) { // opposite: the cross product has lost half its digits
         const Vec3 across = a.unitOrthogonal(); // every half turn is as small
         return least_turn(across, b) * least_turn(a, across);
     }
