@@ -64,8 +64,11 @@ std::vector<double> default_sizes(const SameEdges& edges)
         if (!members[m].options.size) own[m] = surface::default_size(*members[m].volume).length;
     const auto is_free = [&](std::size_t m) { return own[m] > 0 && members[m].fixed == nullptr; };
     geometry::UnionFind touching(members.size());
-    for (const SharedFace& face : edges.shared())
-        if (is_free(face.a) && is_free(face.b)) touching.unite_least(face.a, face.b);
+    for (const SharedFace& face : edges.shared()) {
+        const std::string &a = members[face.a].whole, &b = members[face.b].whole;
+        const bool pieces = !a.empty() && a == b; // pieces of one volume keep their sizes
+        if (!pieces && is_free(face.a) && is_free(face.b)) touching.unite_least(face.a, face.b);
+    }
     std::map<std::size_t, double> largest;
     for (std::size_t m = 0; m < members.size(); ++m) {
         double& size = largest[touching.find(m)];

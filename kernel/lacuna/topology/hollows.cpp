@@ -248,9 +248,17 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
         const auto is_own = [&](FaceId face) { return own.contains(model[face].tag); };
         if (std::ranges::any_of(shell, is_own) || is_between_regions(model, shell)) continue;
         if (!tree) tree.emplace(volume.points, facets_of(volume, all_faces(volume)), context);
+        // Parts of a body may stick out of the volume, so the place deepest in the volume's box decides.
+        const auto depth = [&](const Vec3& p) {
+            return std::min((p - tree->bounds().min()).minCoeff(), (tree->bounds().max() - p).minCoeff());
+        };
         const auto inside = std::ranges::find_if(shell, [&](FaceId face) {
-            const Vec3 p = facet_centre(model, face);
-            return tree->bounds().contains(p) && std::abs(tree->winding_number(p)) > kInside;
+            Vec3 deepest = facet_centre(model, face);
+            for (const Triangle& t : model[face].triangles) {
+                const Vec3 centre = (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
+                if (depth(centre) > depth(deepest)) deepest = centre;
+            }
+            return depth(deepest) > 0 && std::abs(tree->winding_number(deepest)) > kInside;
         });
         if (inside != shell.end()) found.push_back(*inside);
     }
