@@ -17,6 +17,7 @@
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -353,7 +354,7 @@ bool is_square_to_given(const Model& model, FaceId face)
     return std::ranges::all_of(faces_beside(model, face), [&](FaceId other) {
         return model[other].origin == Origin::made_void ||
                std::ranges::all_of(model[other].triangles, [&](const Triangle& t) {
-                   const Vec3 area = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+                   const Vec3 area = facet_area_vector(model, t);
                    return std::abs(area.dot(normal)) <= kParallel * area.norm();
                });
     });
@@ -386,8 +387,11 @@ void note_end_inside(const OpenVolume& sealed, FaceId wall, const std::vector<Ri
         }
         if (low >= -model.tolerance || high <= model.tolerance) continue;
         if (geometry::height(plane, face_centroid(model, inner)) > 0) plane.normal = -plane.normal;
-        const auto short_of = [&](double x) { return std::abs(x) <= model.tolerance ? 0.0 : x; };
-        const Vec3 o = plane.origin.unaryExpr(short_of), n = plane.normal.unaryExpr(short_of);
+        const auto without_noise = [](const Vec3& v, double noise) -> Vec3 {
+            return v.unaryExpr([&](double x) { return std::abs(x) <= noise ? 0.0 : x; });
+        };
+        const Vec3 o = without_noise(plane.origin, model.tolerance),
+                   n = without_noise(plane.normal, kSamePlace);
         assume(
             closure,
             Message("closure.end_inside",

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
@@ -113,6 +114,29 @@ bool lie_inside(const Model& model, const std::vector<FaceId>& faces, const geom
     });
 }
 
+/// A part that crosses a plane, lies in front of it, or ends in it with faces.
+struct AtPlane {
+    std::size_t part = 0;
+    bool crosses = false, in_front = false;
+    std::vector<FaceId> flush; ///< its faces in the plane
+};
+
+std::vector<AtPlane> parts_at(const Model& model, const std::vector<std::vector<FaceId>>& parts,
+                              const std::vector<Eigen::AlignedBox3d>& boxes, const geometry::Plane& plane)
+{
+    std::vector<AtPlane> found;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const double middle = geometry::height(plane, boxes[p].center());
+        const double reach = plane.normal.cwiseAbs().dot(boxes[p].sizes()) / 2;
+        if (middle + reach < -model.tolerance) continue;
+        const Range range = heights(model, parts[p], plane);
+        const bool above = range.high > model.tolerance, below = range.low < -model.tolerance;
+        AtPlane at{p, above && below, above && !below, faces_in(model, parts[p], plane)};
+        if (above || !at.flush.empty()) found.push_back(std::move(at));
+    }
+    return found;
+}
+
 /// A face of a part beside one of its rims.
 FaceId face_beside(const Model& model, const std::vector<FaceId>& part, const Rim& rim)
 {
@@ -182,32 +206,35 @@ std::optional<Overhang> find_overhang(const Model& model, const std::vector<Face
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const FaceId face : parts[p])
             for (const Index corner : corners_of(model[face])) boxes[p].extend(model.at(corner));
-    for (const std::vector<FaceId>& around : parts)
-        for (const Rim& rim : rims(model, around)) {
+    // The rims of a bundle lie in a few planes.
+    std::vector<std::pair<geometry::Plane, std::vector<AtPlane>>> known;
+    const auto at_plane = [&](const geometry::Plane& plane) -> const std::vector<AtPlane>& {
+        const auto own = std::ranges::find_if(known, [&](const auto& other) {
+            return other.first.normal.dot(plane.normal) > 0 &&
+                   other.first.normal.cross(plane.normal).norm() <= kRoundoff &&
+                   std::abs(geometry::height(other.first, plane.origin)) <= model.tolerance;
+        });
+        return own != known.end() ? own->second
+                                  : known.emplace_back(plane, parts_at(model, parts, boxes, plane)).second;
+    };
+    for (std::size_t around = 0; around < parts.size(); ++around)
+        for (const Rim& rim : rims(model, parts[around])) {
             const std::vector<Vec3> loop = loop_places(model, rim.uses);
-            const auto plane = plane_of_end(model, around, loop);
+            const auto plane = plane_of_end(model, parts[around], loop);
             if (!plane) continue;
-            std::optional<std::vector<FaceId>> first;
-            bool continues = false; // whether a part lies in front of the plane, or across the rim
-            for (std::size_t p = 0; p < parts.size() && !continues; ++p) {
-                const std::vector<FaceId>& part = parts[p];
-                const double middle = geometry::height(*plane, boxes[p].center());
-                const double reach = plane->normal.cwiseAbs().dot(boxes[p].sizes()) / 2;
-                if (&part == &around || middle + reach < -model.tolerance) continue;
-                const Range range = heights(model, part, *plane);
-                std::vector<FaceId> flush = faces_in(model, part, *plane);
-                // A face across the rim closes it, such as the plate that a frame stands on.
-                continues = (range.low >= -model.tolerance && range.high > model.tolerance) ||
-                            !lie_inside(model, flush, *plane, loop);
-                if (first || continues || range.low >= -model.tolerance) continue;
-                if (range.high > model.tolerance && !crosses_quads(model, part, *plane) &&
-                    crosses_inside(model, part, *plane, loop))
-                    first = part;
-                else if (range.high <= model.tolerance && !flush.empty())
-                    first = std::move(flush);
-            }
-            if (first && !continues)
-                return Overhang{*plane, std::move(*first), face_beside(model, around, rim)};
+            std::vector<FaceId> out;
+            const bool is_mouth = std::ranges::all_of(at_plane(*plane), [&](const AtPlane& at) {
+                if (at.part == around) return true;
+                if (at.in_front || !lie_inside(model, at.flush, *plane, loop)) return false;
+                const std::vector<FaceId>& part = parts[at.part];
+                if (!at.crosses)
+                    out.insert(out.end(), at.flush.begin(), at.flush.end());
+                else if (!crosses_quads(model, part, *plane) && crosses_inside(model, part, *plane, loop))
+                    out.insert(out.end(), part.begin(), part.end());
+                return true;
+            });
+            if (is_mouth && !out.empty())
+                return Overhang{*plane, std::move(out), face_beside(model, parts[around], rim)};
         }
     return std::nullopt;
 }

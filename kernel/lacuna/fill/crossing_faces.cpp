@@ -29,12 +29,8 @@ Corners corners_of(const Model& model, const Triangle& t)
 bool is_on_one_side(const std::optional<RoundShape>& round, const Corners& facet, double tolerance)
 {
     if (!round) return false;
-    const auto out = [&](const Vec3& p) {
-        const Vec3 from = p - round->centre;
-        return (round->axis ? from.cross(*round->axis).norm() : from.norm()) - round->radius;
-    };
-    return std::ranges::all_of(facet, [&](const Vec3& p) { return out(p) <= tolerance; }) ||
-           std::ranges::all_of(facet, [&](const Vec3& p) { return out(p) >= -tolerance; });
+    return std::ranges::all_of(facet, [&](const Vec3& p) { return round->height(p) <= tolerance; }) ||
+           std::ranges::all_of(facet, [&](const Vec3& p) { return round->height(p) >= -tolerance; });
 }
 
 bool share_a_point(const Triangle& a, const Triangle& b)

@@ -338,13 +338,16 @@ std::optional<Opening> filled_to_level(const Model& model, const RoleRequest& re
     return opening;
 }
 
-/// Cut off the parts of faces that stick out of a flat rim of other faces.
-Opening without_overhangs(Opening opening, const RunContext& context)
+/// Cut off the parts of faces that stick out of flat rims of other faces, or end in their planes. Empty if
+/// there are none.
+std::optional<Opening> without_overhangs(const Model& whole, const RoleRequest& request,
+                                         const RunContext& context)
 {
+    std::optional<Opening> opening;
     while (true) {
-        const Model& model = opening.model;
-        const std::vector<FaceId> named = named_faces(model, opening.request);
-        const auto found = closure::find_overhang(model, named);
+        const Model& model = opening ? opening->model : whole;
+        const RoleRequest& now = opening ? opening->request : request;
+        const auto found = closure::find_overhang(model, named_faces(model, now));
         // Faces that are not named stay: they may be in contact with named ones.
         auto trimmed = found ? closure::trim(model, topology::all_faces(model), found->faces, found->plane,
                                              context)
@@ -352,18 +355,12 @@ Opening without_overhangs(Opening opening, const RunContext& context)
         if (!trimmed) return opening;
         std::vector<FaceId> lost = trimmed->cut;
         std::ranges::copy(trimmed->gone, std::back_inserter(lost));
-        const bool flush = trimmed->cut.empty();
-        auto shorter = opening_of(opening.request, model, std::move(*trimmed));
+        auto shorter = opening_of(now, model, std::move(*trimmed));
         if (!shorter) return opening;
-        const auto beside = topology::entity_of(model, found->beside);
-        const auto what = topology::entities_of(model, lost);
-        log_line(
-            context,
-            flush ? formatted("note: left out, because they lie in the plane of the rim of {}: {}", beside,
-                              what)
-                  : formatted("note: cut off in the plane of the rim of {}, because they stick out of it: {}",
-                              beside, what));
-        opening = std::move(*shorter);
+        log_line(context,
+                 formatted("note: cut off in the plane of the rim of {}: {}",
+                           topology::entity_of(model, found->beside), topology::entities_of(model, lost)));
+        opening = std::move(shorter);
     }
 }
 
@@ -377,7 +374,8 @@ Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext
         volume.role_reasons = find_walls(whole, *opening.request.roles, context);
         topology::require_none_left_out(whole, topology::all_faces(*opening.request.roles), "walls");
         opening.request.find_walls = false;
-        opening = without_overhangs(std::move(opening), context);
+        if (auto shorter = without_overhangs(opening.model, opening.request, context))
+            opening = std::move(*shorter);
     }
     if (!asked.along && !asked.full_turn) {
         if (auto level = asked.fill_to ? filled_to_level(opening.model, opening.request, context)
@@ -463,6 +461,17 @@ void note_body_filled(const Model& model, const RunContext& context)
     if (!words.empty()) log_line(context, "note: no faces are named, so the body itself is filled" + words);
 }
 
+/// Open a volume from a model whose solids may touch.
+Volume open_joined(const Model& model, const RoleRequest& request, const RunContext& context)
+{
+    const auto joined = join_touching_parts(model, named_faces(model, request), request.find_walls, context);
+    if (!joined) return open_apart(model, request, context);
+    log_line(context, joined->note);
+    RoleRequest now = joined_request(request, *joined);
+    if (!now.find_walls) leave_out_beyond_contacts(model, *joined, now, context);
+    return open_apart(joined->model, now, context);
+}
+
 Volume open_named(const Model& model, const RoleRequest& request, const RunContext& context)
 {
     if (request.along || request.full_turn) return open_apart(model, request, context);
@@ -474,16 +483,10 @@ Volume open_named(const Model& model, const RoleRequest& request, const RunConte
         log_line(context, left->note);
         return open_named(left->model, joined_request(request, *left), context);
     }
-    Opening opening{model, request};
     // Where a part stands on another, its top still sticks out of a rim.
-    if (!request.find_walls) opening = without_overhangs(std::move(opening), context);
-    const auto joined = join_touching_parts(opening.model, named_faces(opening.model, opening.request),
-                                            request.find_walls, context);
-    if (!joined) return open_apart(opening.model, opening.request, context);
-    log_line(context, joined->note);
-    RoleRequest now = joined_request(opening.request, *joined);
-    if (!now.find_walls) leave_out_beyond_contacts(opening.model, *joined, now, context);
-    return open_apart(joined->model, now, context);
+    if (const auto shorter = request.find_walls ? std::nullopt : without_overhangs(model, request, context))
+        return open_joined(shorter->model, shorter->request, context);
+    return open_joined(model, request, context);
 }
 
 } // namespace

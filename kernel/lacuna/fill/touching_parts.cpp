@@ -200,11 +200,8 @@ private:
     [[nodiscard]] double off_shape(const RoundShape& shape, FaceId face) const
     {
         double off = 0;
-        for (const Index p : corner_points(model_[face])) {
-            const Vec3 out = model_.at(p) - shape.centre;
-            const double far = shape.axis ? out.cross(*shape.axis).norm() : out.norm();
-            off = std::max(off, std::abs(far - shape.radius));
-        }
+        for (const Index p : corner_points(model_[face]))
+            off = std::max(off, std::abs(shape.height(model_.at(p))));
         return off;
     }
 

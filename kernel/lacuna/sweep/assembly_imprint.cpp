@@ -142,12 +142,12 @@ public:
         std::vector<Index> chain{stops.front()};
         for (std::size_t i = 0; i + 1 < stops.size(); ++i)
             if (!cut_between(stops[i], stops[i + 1], chain)) return {};
+        if (!bent) return chain;
         const std::vector<double> arc = geometry::arc_lengths(line);
         for (const Index p : chain)
-            if (bent && p >= given && !place.contains(p))
+            if (p >= given && !place.contains(p))
                 place.emplace(p, geometry::point_at(line, arc, closest_on(line, model_.at(p)).at));
-        if (bent)
-            for (const auto& [p, to] : place) model_.points[index(p)] = to;
+        for (const auto& [p, to] : place) model_.points[index(p)] = to;
         return chain;
     }
 

@@ -32,10 +32,8 @@ std::vector<std::vector<FaceId>> closed_shells(const Model& model)
     return shells;
 }
 
-/// The centre of a face's first facet.
-Vec3 facet_centre(const Model& model, FaceId face)
+Vec3 facet_centre(const Model& model, const Triangle& t)
 {
-    const Triangle& t = model[face].triangles.front();
     return (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
 }
 
@@ -145,7 +143,8 @@ std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<
         const geometry::FacetTree tree(model.points, facets_of(model, parts[o]), context);
         for (std::size_t p = 0; p < parts.size(); ++p) {
             if (p == o) continue;
-            const Vec3 at = facet_centre(model, parts[p].front()); // corners may be shared by both parts
+            const Vec3 at = facet_centre(
+                model, model[parts[p].front()].triangles.front()); // corners may be shared by both parts
             if (tree.bounds().contains(at) && std::round(tree.winding_number(at)) != 0) inner[p] = !inner[p];
         }
     }
@@ -253,11 +252,9 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
             return std::min((p - tree->bounds().min()).minCoeff(), (tree->bounds().max() - p).minCoeff());
         };
         const auto inside = std::ranges::find_if(shell, [&](FaceId face) {
-            Vec3 deepest = facet_centre(model, face);
-            for (const Triangle& t : model[face].triangles) {
-                const Vec3 centre = (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
-                if (depth(centre) > depth(deepest)) deepest = centre;
-            }
+            const auto centre = [&](const Triangle& t) { return facet_centre(model, t); };
+            const Vec3 deepest = centre(*std::ranges::max_element(
+                model[face].triangles, {}, [&](const Triangle& t) { return depth(centre(t)); }));
             return depth(deepest) > 0 && std::abs(tree->winding_number(deepest)) > kInside;
         });
         if (inside != shell.end()) found.push_back(*inside);

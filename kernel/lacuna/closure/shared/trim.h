@@ -36,16 +36,18 @@ std::optional<Trimmed> trim(const topology::Model& model, const std::vector<Face
 /// Faces that stick out of a flat rim of other faces, or lie in its plane.
 struct Overhang {
     geometry::Plane plane; ///< of the rim; its normal points out of the volume
-    /// Faces of one part: all if the part crosses the plane inside the rim, otherwise those in the plane.
+    /// All faces of each part that crosses the plane inside the rim, and of other parts those in the plane.
     std::vector<FaceId> faces;
     FaceId beside; ///< a face beside the rim
 };
 
-/// The first part of a volume's faces that sticks out of a flat rim of another part, such as a shaft that is
-/// longer than its sleeve, or that ends in the plane of the rim with a face, which does not bound the volume.
-/// The other part lies behind this plane. Parts with given quads that cross the plane do not count. If a part
-/// lies in front of the plane, the volume continues there, and faces at a step are missing.
-/// @note  O(facets) for each part whose box crosses the plane of a rim.
+/// The first flat rim of a part of a volume's faces out of which other parts stick, such as a shaft that is
+/// longer than its sleeve, or in whose plane they end with a face, which does not bound the volume. The part
+/// with the rim lies behind the plane. Parts with given quads that cross the plane do not count.
+/// The rim is no such rim in these cases:
+/// - A part lies in front of the plane: the volume continues there, and faces at a step are missing.
+/// - A face in the plane reaches across the rim: it closes the rim.
+/// @note  O(facets) for each plane of a rim.
 std::optional<Overhang> find_overhang(const topology::Model& model, const std::vector<FaceId>& faces);
 
 } // namespace lacuna::closure

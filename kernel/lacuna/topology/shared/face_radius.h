@@ -13,6 +13,11 @@ struct RoundShape {
     Vec3 centre = Vec3::Zero(); ///< centre of the sphere, or the point of the axis at mid-length of the face
     std::optional<Vec3> axis;   ///< unit axis of a cylinder; empty for a sphere
     [[nodiscard]] bool is_sphere() const { return !axis; }
+    /// Distance of a point from the surface [model length]; negative inside.
+    [[nodiscard]] double height(const Vec3& p) const
+    {
+        return (axis ? (p - centre).cross(*axis).norm() : (p - centre).norm()) - radius;
+    }
 };
 
 /// The cylinder or sphere of a face, from its facets. The axis of a cylinder is normal to all facet normals.
