@@ -5,6 +5,7 @@ from __future__ import annotations
 import _thread
 import atexit
 import ctypes
+import logging
 import os
 import queue
 import threading
@@ -102,6 +103,10 @@ def _load():
 
 
 _library = _load()
+
+# Found here, as a signal that raises within getLogger() would leave the lock of all loggers held.
+_logger = logging.getLogger("lacuna")
+_logger.isEnabledFor(logging.INFO)  # kept by the logger, which does not take the lock for it again
 
 # --- calls ------------------------------------------------------------------------------------------------
 
@@ -410,9 +415,8 @@ def _busy(what, remedy):
 
 def _note(text):
     """Notes are warnings, which logging shows on standard error unless the program says otherwise."""
-    import logging
     level = logging.WARNING if text.startswith("note: ") else logging.INFO
-    logging.getLogger("lacuna").log(level, "%s", text)
+    _logger.log(level, "%s", text)
 
 
 # --- forks and the end of Python --------------------------------------------------------------------------

@@ -440,6 +440,13 @@ class Callbacks(unittest.TestCase):
 
 
 class Signals(unittest.TestCase):
+    def test_no_call_takes_the_lock_of_all_loggers(self):
+        """A signal that raises while it is taken would leave it held, and stop the notes of all threads."""
+        void = prism(sides=24, bend=60)
+        void.sweep(layers=6, size=0.4)
+        with unittest.mock.patch("logging._acquireLock", create=True, side_effect=AssertionError):
+            void.sweep(layers=6, size=0.4)
+
     def test_ctrl_c_stops_a_job_in_half_a_second(self):
         void = prism(sides=6, twist=40)
         sent = []
