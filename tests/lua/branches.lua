@@ -8,7 +8,8 @@ local params = lacuna.params { members = check.whole and 60 or 6 }
 local sides = 24 -- corners of a round mouth
 
 --- A duct along x with a square section of side 2, and branches { at =, side = 1 … 4, radius =, length =,
---- corners =, lean =, turn =, role = }. Faces: left, right, duct_1 … 4, branch_n, top_n.
+--- corners =, lean =, turn =, role =, fillet = radius at the mouth }. Faces: left, right, duct_1 … 4,
+--- branch_n, top_n, fillet_n.
 local function duct(length, branches)
   local model = lacuna.model()
   local function frame(side) -- a place along x, across the side's wall, and up from it
@@ -27,11 +28,28 @@ local function duct(length, branches)
         local at, r = branch.at, branch.radius
         flat(from, at - 1)
         from = at + 1
-        local rim, frame_points, count = {}, {}, branch.corners or sides
-        for i = 0, count - 1 do
-          local t = 2 * math.pi * (i + (branch.turn or 0)) / count
-          rim[i + 1] = { at + r * math.cos(t), r * math.sin(t) }
+        local count, fillet = branch.corners or sides, branch.fillet or 0
+        local function ring(radius)
+          local points = {}
+          for i = 0, count - 1 do
+            local t = 2 * math.pi * (i + (branch.turn or 0)) / count
+            points[i + 1] = { at + radius * math.cos(t), radius * math.sin(t) }
+          end
+          return points
         end
+        if fillet > 0 then
+          local places, quads, steps = {}, {}, 6
+          for k = 0, steps do
+            local u = math.pi / 2 * k / steps
+            for i, p in ipairs(ring(r + fillet * (1 - math.sin(u)))) do
+              places[k * count + i] = place(p[1], p[2], fillet * (1 - math.cos(u)))
+              local j = k * count + i % count + 1
+              if k < steps then quads[#quads + 1] = { k * count + i, j, j + count, (k + 1) * count + i } end
+            end
+          end
+          model:add_face { name = "fillet_" .. n, points = places, cells = quads }
+        end
+        local rim, neck = ring(r + fillet), ring(r)
         -- Between the mouth and the square round it: each side of the mouth sees a part of the square.
         local square = {}
         for i = 0, count - 1 do
@@ -61,9 +79,9 @@ local function duct(length, branches)
           if q.rim then cells[#cells + 1] = { inner[last], q.n, inner[q.rim] } end
         end
         local wall, walls, top = {}, {}, {}
-        for i, p in ipairs(rim) do
+        for i, p in ipairs(neck) do
           local lean = branch.lean or 0
-          wall[i] = place(p[1], p[2], 0)
+          wall[i] = place(p[1], p[2], fillet)
           wall[count + i] = place(p[1] + lean, p[2], branch.length)
           top[i] = wall[count + i]
           local j = i % count + 1
@@ -97,7 +115,12 @@ local function volume(length, branches)
   local sum = 4 * length
   for _, b in ipairs(branches) do
     local n = b.corners or sides
-    sum = sum + n / 2 * b.radius ^ 2 * math.sin(2 * math.pi / n) * b.length
+    local share, fillet = n / 2 * math.sin(2 * math.pi / n), b.fillet or 0
+    sum = sum + share * b.radius ^ 2 * b.length
+    for k = 1, 100 do -- the ring that a fillet adds
+      local aside = fillet * (1 - math.sin(math.acos(1 - (k - 0.5) / 100)))
+      sum = sum + share * ((b.radius + aside) ^ 2 - b.radius ^ 2) * fillet / 100
+    end
   end
   return sum
 end
@@ -123,6 +146,22 @@ for _, piece in ipairs(open(duct(6, one), one):cut()) do classes[#classes + 1] =
 check.equal(table.concat(classes, " "), "closed closed IV", "the branch's end is missing and stays so")
 one[1].role = "wall"
 check.equal(open(duct(6, one), one):cut()[3].class, "closed", "its end is found among walls")
+
+-- A fillet at the mouth belongs to the branch's wall, whether the branch has an end or not, and on two sides.
+for _, role in ipairs { "wall", "target", "missing" } do
+  for _, count in ipairs { 1, 2 } do
+    local smooth = {}
+    for n = 1, count do
+      smooth[n] = { at = 3, side = 2 * n - 1, radius = 0.5, length = 2, fillet = 0.2, role = role }
+    end
+    local whole = open(duct(6, smooth), smooth)
+    check.equal(#whole:cut(), 2 + count)
+    local mesh = whole:sweep { size = 0.25 }
+    check.equal(#mesh.regions, 2 + count)
+    check.near(mesh.fidelity.volume, volume(6, smooth), 0.01 * volume(6, smooth))
+    check.that(mesh:quality().min_scaled_jacobian > 0.3)
+  end
+end
 
 -- A square one is cut along its sides, as a T all along its middle.
 local square = { { at = 3, side = 1, radius = 0.5 * math.sqrt(2), length = 2, corners = 4, turn = 0.5,

@@ -3,13 +3,16 @@
 
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/shared/branches.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -44,6 +47,12 @@ public:
         for (bool again = true; again;) {
             find_regions();
             again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
+            for (Mouth& mouth : result_.mouths) {
+                if (!mouth.fillet.valid() || result_.region[mouth.fillet.index()] != mouth.host) continue;
+                std::swap(mouth.edges, mouth.beyond);
+                mouth.fillet = {};
+                again = true;
+            }
         }
         return std::move(result_);
     }
@@ -51,7 +60,7 @@ public:
 private:
     void find_lines()
     {
-        const std::vector<double> turns = concave_turns(volume_, context_);
+        const auto [turns, faces_void] = skin_turns(volume_, context_);
         const std::set<EdgeId> at_ends = edges_of(model_, ends_);
         std::map<VertexId, std::vector<EdgeId>> at;
         geometry::UnionFind sets(model_.edges.size());
@@ -72,6 +81,69 @@ private:
             });
             if (closed) result_.mouths.push_back({std::move(edges)});
         }
+        find_fillets(turns, faces_void, at_ends);
+    }
+
+    /// Find the rings of smooth faces that replace a mouth's line. One rim of such a ring is a whole rim of
+    /// one wall.
+    void find_fillets(const std::vector<double>& turns, const std::vector<bool>& faces_void,
+                      const std::set<EdgeId>& at_ends)
+    {
+        const auto is_smooth = [&](const EdgeUse& use) {
+            return !at_ends.contains(use.edge) && std::abs(turns[use.edge.index()]) < kCreaseAngle / 2 &&
+                   model_.uses_of_edge(use.edge).size() == 2;
+        };
+        const auto edges_of_rim = [](const Rim& rim) {
+            std::vector<EdgeId> edges;
+            for (const EdgeUse& use : rim.uses) edges.push_back(use.edge);
+            std::ranges::sort(edges);
+            return edges;
+        };
+        std::set<FaceId> known;
+        for (const FaceId wall : volume_.faces(Role::wall)) {
+            for (const Rim& rim : rims(model_, {wall})) {
+                if (!std::ranges::all_of(rim.uses, is_smooth)) continue;
+                std::set<FaceId> ring;
+                for (const EdgeUse& use : rim.uses)
+                    for (const FaceUse& user : model_.uses_of_edge(use.edge))
+                        if (user.face != wall) ring.insert(user.face);
+                const std::vector<FaceId> fillet(ring.begin(), ring.end());
+                std::vector<Rim> both = rims(model_, fillet);
+                if (both.size() != 2 || known.contains(fillet.front())) continue;
+                Mouth mouth{edges_of_rim(rim), edges_of_rim(both[0]), fillet.front()};
+                if (mouth.beyond == mouth.edges) {
+                    std::swap(both[0], both[1]);
+                    mouth.beyond = edges_of_rim(both[0]);
+                }
+                if (edges_of_rim(both[1]) != mouth.edges || !std::ranges::all_of(both[0].uses, is_smooth) ||
+                    mean_bend(wall, faces_void[wall.index()], mouth) < kCreaseAngle / 2)
+                    continue;
+                known.insert(ring.begin(), ring.end());
+                result_.mouths.push_back(std::move(mouth));
+            }
+        }
+    }
+
+    /// The angle by which the skin turns from one rim of a fillet to the other, on average; positive if the
+    /// fillet rounds a concave edge of the void [degrees].
+    [[nodiscard]] double mean_bend(FaceId wall, bool faces_void, const Mouth& mouth) const
+    {
+        const geometry::FacetTree facets(model_.points, model_[wall].triangles);
+        const std::vector<Vec3> far = places(model_, mouth.beyond);
+        double sum = 0;
+        const std::vector<Vec3> near = places(model_, mouth.edges);
+        for (const Vec3& p : near) {
+            const Triangle& t = model_[wall].triangles[facets.closest(p).triangle];
+            const Vec3 normal = (model_.at(t[1]) - model_.at(t[0]))
+                                    .cross(model_.at(t[2]) - model_.at(t[0]))
+                                    .stableNormalized();
+            const Vec3 way =
+                (*std::ranges::min_element(far, {}, [&](const Vec3& q) { return (q - p).squaredNorm(); }) - p)
+                    .stableNormalized();
+            // The chord of an arc leaves its tangent by half the angle of the arc.
+            sum -= 2 * std::asin(std::clamp(normal.dot(way), -1.0, 1.0));
+        }
+        return (faces_void ? sum : -sum) / static_cast<double>(near.size()) / kDegree;
     }
 
     void find_regions()

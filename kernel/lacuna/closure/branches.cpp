@@ -72,7 +72,8 @@ public:
         for (; count < mouths.size() && reach(*mouths[count]).low <= high + volume_.model.tolerance; ++count)
             high = std::max(high, reach(*mouths[count]).high);
         mouths.resize(count);
-        for (const Mouth* mouth : mouths) refuse_beyond(*mouth);
+        for (const Mouth* mouth : mouths)
+            if (mouth->beyond.empty()) refuse_beyond(*mouth);
         if (count == 1 && found_.ends[mouths.front()->branch].size() < 2) {
             const std::vector<double> heights = sides_across(*mouths.front());
             if (!heights.empty()) return part_at(heights);

@@ -9,9 +9,12 @@
 
 namespace lacuna::closure {
 
-/// A closed line of concave edges between a branch and its main body.
+/// A closed line between a branch and its main body: of concave edges, or the rim of a fillet on the main
+/// body. The fillet is then part of the branch.
 struct Mouth {
     std::vector<EdgeId> edges;
+    std::vector<EdgeId> beyond{};     ///< the other rim of the fillet; empty without one
+    FaceId fillet{};                  ///< a face of it; none once the rim on the main body is known
     std::size_t host = 0, branch = 0; ///< the regions of the skin on the two sides of the mouth: main body
                                       ///< and branch
 };
