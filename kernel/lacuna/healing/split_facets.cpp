@@ -16,6 +16,7 @@
 #include <lacuna/healing/detail/soup_facets.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -83,12 +84,80 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vect
     return flood;
 }
 
+/// Move the facets at the border of a face into the adjacent face if their own normals are closer to the
+/// normals there, or if that shortens the border.
+void straighten_borders(const Facets& facets, const FacetSides& sides, std::vector<Vec3>& normal,
+                        Flood& flood, const RunContext& context)
+{
+    // A side more in the other face weighs as much as normals whose cosines differ by kSideWeight. With 0.5,
+    // rims of saw cuts are off by a facet at noise of 20 % of the sides, with 1 at noise of 10 %.
+    constexpr double kSideWeight = 0.7;
+    constexpr int kMostPasses = 10;
+    const Incidence at_point = incidence(facets.points.size(), [&](const auto& visit) {
+        for (Index f = 0; index(f) < facets.count(); ++f)
+            for (const Index p : facets.corner[index(f)]) visit(index(p), f);
+    });
+    // Whether all facets at the corner opposite a side are in the face of the side's facet. The face then
+    // stays in one part without this facet.
+    const auto is_inside = [&](Index side) {
+        const Index opposite = sides.to(3 * (side / 3) + (side + 1) % 3);
+        return std::ranges::all_of(at_point.of(index(opposite)), [&](Index f) {
+            return flood.face[index(f)] == flood.face[index(side / 3)];
+        });
+    };
+    std::vector<Vec3> own; // of each facet with those across its sides
+    for (Index f = 0; index(f) < facets.count(); ++f) {
+        Vec3 area = area_vector(facets.points, facets.corner[index(f)]);
+        for (Index side = 3 * f; side < 3 * f + 3; ++side) {
+            const Index other = partner(facets, sides, side);
+            if (other >= 0)
+                area += (sides.from(other) != sides.from(side) ? 1 : -1) *
+                        area_vector(facets.points, facets.corner[index(other / 3)]);
+        }
+        own.push_back(area.stableNormalized());
+    }
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+        check_cancelled(context);
+        bool any = false;
+        for (Index f = 0; index(f) < facets.count(); ++f) {
+            std::array<Index, 3> across{};
+            for (Index k = 0; k < 3; ++k) across[index(k)] = partner(facets, sides, 3 * f + k);
+            double best = 0;
+            Index into = -1;
+            for (Index k = 0; k < 3; ++k) {
+                const Index other = across[index(k)];
+                if (other < 0 || flood.face[index(other / 3)] == flood.face[index(f)]) continue;
+                const auto sides_in = [&](Index face) {
+                    return std::ranges::count_if(
+                        across, [&](Index side) { return side >= 0 && flood.face[index(side / 3)] == face; });
+                };
+                const std::ptrdiff_t there = sides_in(flood.face[index(other / 3)]);
+                if (there < 2 && !is_inside(3 * f + k)) continue;
+                double gain = kSideWeight * static_cast<double>(there - sides_in(flood.face[index(f)]));
+                const double agree = sides.from(other) != sides.from(3 * f + k) ? 1 : -1;
+                gain += own[index(f)].dot(agree * normal[index(other / 3)] - normal[index(f)]);
+                if (gain <= best) continue;
+                best = gain;
+                into = k;
+            }
+            if (into < 0) continue;
+            const Index other = across[index(into)];
+            const bool agree = sides.from(other) != sides.from(3 * f + into);
+            normal[index(f)] = (agree ? 1 : -1) * normal[index(other / 3)];
+            flood.face[index(f)] = flood.face[index(other / 3)];
+            flood.flipped[index(f)] = flood.flipped[index(other / 3)] != !agree;
+            any = true;
+        }
+        if (!any) return;
+    }
+}
+
 /// The faces of a noisy surface, separated by the mean normals of patches (`patch_normals()`). A region with
 /// fewer facets than a patch is not a face of its own; it is added to an adjacent face.
 Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature, const RunContext& context)
 {
     std::vector<Vec3> normal = patch_normals(facets, sides, context);
-    const Flood flood = flood_faces(facets, sides, normal, feature, context);
+    Flood flood = flood_faces(facets, sides, normal, feature, context);
     std::vector<std::size_t> size(index(flood.faces), 0);
     for (const Index face : flood.face) ++size[index(face)];
     const std::vector<Vec3> before = normal;
@@ -98,11 +167,14 @@ Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature,
         normal[index(f)].setZero();
         dust.push_back(f);
     }
-    if (dust.empty()) return flood;
-    borrow_normals(facets, sides, dust, normal, context);
-    for (const Index f : dust) // facets without a larger adjacent face get their previous normals back
-        if (normal[index(f)].isZero(0)) normal[index(f)] = before[index(f)];
-    return flood_faces(facets, sides, normal, feature, context);
+    if (!dust.empty()) {
+        borrow_normals(facets, sides, dust, normal, context);
+        for (const Index f : dust) // facets without a larger adjacent face get their previous normals back
+            if (normal[index(f)].isZero(0)) normal[index(f)] = before[index(f)];
+        flood = flood_faces(facets, sides, normal, feature, context);
+    }
+    straighten_borders(facets, sides, normal, flood, context);
+    return flood;
 }
 
 Message note_on(const NoiseSmoothed& moved)
@@ -110,12 +182,14 @@ Message note_on(const NoiseSmoothed& moved)
     if (moved.most == 0)
         return Message("healing.noisy_facets",
                        "the facets are noisy, so faces are separated by the mean normals of patches")
+            .remedy("load with a larger feature_angle if the angles between facets are no noise")
             .as_warning();
     return Message(
                "healing.noisy_facets",
                "the facets are noisy and were smoothed: points moved by {:.3g} on average and {:.3g} at most",
                moved.mean, moved.most)
-        .remedy("load with keep_noise = true to leave them where they are")
+        .remedy("load with keep_noise = true to leave them where they are, or with a larger feature_angle if "
+                "the angles between facets are no noise")
         .as_warning();
 }
 
@@ -380,7 +454,7 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     const std::vector<Vec3> normal = own_normals(facets, sides, feature, context);
     Flood flood = flood_faces(facets, sides, normal, face_angle, context);
     const bool noisy = !options.whole_labels &&
-                       is_noisy(facets, sides, normal, flood.flipped, feature, context);
+                       is_noisy(facets, sides, normal, flood.face, flood.flipped, feature, context);
     topology::ModelBuilder model;
     if (noisy) flood = flood_noisy(facets, sides, feature, context);
     model.points = facets.points;

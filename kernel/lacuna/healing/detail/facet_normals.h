@@ -32,12 +32,15 @@ std::vector<Vec3> own_normals(const Facets& facets, const FacetSides& sides, dou
 void borrow_normals(const Facets& facets, const FacetSides& sides, std::vector<Index> without,
                     std::vector<Vec3>& normal, const RunContext& context);
 
-/// Whether the surface is rough next to many of its creases, as in a noisy scan. A clean surface is smooth on
-/// both sides of a crease.
+/// Whether the surface is rough next to many of its creases, as in a noisy scan, and creases also lie where
+/// they separate no two faces of at least kPatch facets. A clean surface is smooth on both sides of a crease;
+/// on a sawn bone with little noise, all creases separate faces.
+/// @param face  by facet: the face that it belongs to, by its own normals.
 /// @param flipped  by facet: whether it is oriented against its face.
 /// @param feature  smallest turn of a crease [radians].
 bool is_noisy(const Facets& facets, const FacetSides& sides, const std::vector<Vec3>& normal,
-              const std::vector<bool>& flipped, double feature, const RunContext& context);
+              const std::vector<Index>& face, const std::vector<bool>& flipped, double feature,
+              const RunContext& context);
 
 /// For each facet, the mean normal of the flattest patch that contains it (patch: a facet and the facets
 /// nearest to it, `kPatch` in all). Inside a face this is the mean over the surroundings of the facet; next
