@@ -21,6 +21,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <span>
 
 namespace lacuna::healing {
@@ -174,6 +175,13 @@ Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature,
         flood = flood_faces(facets, sides, normal, feature, context);
     }
     straighten_borders(facets, sides, normal, flood, context);
+    // A small face may have lost all its facets.
+    std::vector<Index> used(index(flood.faces), 0);
+    for (const Index face : flood.face) used[index(face)] = 1;
+    std::vector<Index> number(used.size());
+    std::exclusive_scan(used.begin(), used.end(), number.begin(), Index{0});
+    flood.faces = std::accumulate(used.begin(), used.end(), Index{0});
+    for (Index& face : flood.face) face = number[index(face)];
     return flood;
 }
 
