@@ -316,6 +316,33 @@ BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])
   check.that(not err:find("note", 1, true), err)
 end
 
+-- --- the notes of a volume that is cut ---------------------------------------------------------------------
+
+-- A sweep says of the sealed volume what close() says, also where it cuts the volume into pieces.
+do
+  local _, path = solids("shaft_within", [[
+Cylinder(1) = {0,0,0, 0,0,100, 60};  Cylinder(2) = {0,0,0, 0,0,100, 50};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(4) = {0,0,20, 0,0,80, 30};]])
+  local function noted(calls)
+    local recipe = params.scratch .. "/noted.lua"
+    local file = assert(io.open(recipe, "w"))
+    file:write(([[
+local model = require "lacuna".load %q
+local volume = model:open_volume { faces = model:faces { kind = "cylinder", radius = { 29, 51 } } }
+]]):format(path), calls)
+    file:close()
+    local code, _, err = check.run(params.lacuna, params.scratch, { recipe })
+    check.equal(code, 0, err)
+    local codes = {}
+    for name in err:gmatch "%[(closure%.[%w_]+)%]" do codes[#codes + 1] = name end
+    return table.concat(codes, " ")
+  end
+  local told = noted "volume:close()  volume:sweep { size = 8 }"
+  check.that(told:find("closure.flat_assumed", 1, true), told)
+  check.equal(noted "volume:sweep { size = 8 }", told)
+end
+
 -- --- tubes through the plates at both ends of a shell ------------------------------------------------------
 
 do

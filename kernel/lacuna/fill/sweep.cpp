@@ -110,6 +110,7 @@ Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request
     options.layered = options.layered && request.layered_parts;
     if (!options.layered) options.crew = nullptr;
     if (!pieces) return sweep_as_assembly(volume, options, context);
+    if (volume.closure && !volume.told) closure::log_notes(*volume.closure, context);
     Filled filled{{}, sweep_pieces(volume, cut_into_pieces(volume, context), options, context)};
     filled.volumes.push_back(volume);
     return filled;
@@ -370,9 +371,8 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
             report.insert(report.begin(), failed.begin(), failed.end());
             return std::move(*filled);
         }
-        const bool told = now.told || !pieces;
         other = with_other_sweep(volume, next);
-        other->told = told;
+        other->told = true;
     }
 }
 

@@ -256,8 +256,9 @@ private:
                                "and fallback = \"mixed\""));
             if (given == 0) throw InvalidInput(why.remedy("load the deck with keep_mesh = true"));
             throw InvalidInput(
-                why.remedy("sweep with quads = \"auto\" or \"keep\"; both ends keep their quads "
-                           "only if these agree, so name ends whose quads do"));
+                why.remedy("sweep with quads = \"auto\" or \"keep\"; where the quads of both ends differ "
+                           "only the source keeps its own: write the mesh without 'with' and tie its "
+                           "other end to the deck"));
         }
     }
 

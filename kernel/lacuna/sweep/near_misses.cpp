@@ -136,7 +136,10 @@ private:
 
     [[nodiscard]] bool stays_near(const Faces& faces, const FaceOverlap& overlap) const
     {
-        if (!(overlap.a.within >= kStaysNear * overlap.a.around) || !(overlap.a.within > 0)) return false;
+        // Faces that share only an edge are near each other over an area of rounding errors.
+        if (!(overlap.a.within >= kStaysNear * overlap.a.around) ||
+            !(overlap.a.within > pair_.tolerance * pair_.tolerance))
+            return false;
         if (overlap.a.within > pair_.window * overlap.box.diagonal().norm()) return true;
         return overlap.a.within >= kPart * face_area(one_.volume->model, faces.first) ||
                overlap.b.within >= kPart * face_area(other_.volume->model, faces.second);
