@@ -128,27 +128,22 @@ struct VtuArray {
 /// equal offsets.
 std::vector<std::size_t> order_behind(const std::vector<VtuArray>& arrays)
 {
-    constexpr int kTries = 5000; // covers all orders of six arrays, and limits the time
-    std::vector<std::size_t> order(arrays.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    const auto is_clear = [&] {
-        std::set<std::size_t> in_base64;
-        std::size_t raw = 0, base64 = 0;
-        for (const std::size_t a : order) {
-            if (in_base64.contains(raw)) return false;
-            in_base64.insert(base64);
-            const std::size_t bytes = sizeof(std::uint64_t) + arrays[a].bytes();
-            raw += bytes;
-            base64 += 4 * ((bytes + 2) / 3);
-        }
-        return true;
-    };
-    const std::vector<std::size_t> first = order;
-    for (int i = 0; i < kTries; ++i) {
-        if (is_clear()) return order;
-        if (!std::ranges::next_permutation(order).found) break;
+    std::vector<std::size_t> left(arrays.size()), order;
+    std::iota(left.begin(), left.end(), std::size_t(0));
+    std::set<std::size_t> in_base64;
+    std::size_t raw = 0, base64 = 0;
+    const auto bytes = [&](std::size_t a) { return sizeof(std::uint64_t) + arrays[a].bytes(); };
+    while (!left.empty()) {
+        in_base64.insert(base64);
+        auto next = std::ranges::find_if(left,
+                                         [&](std::size_t a) { return !in_base64.contains(raw + bytes(a)); });
+        if (next == left.end()) next = left.begin();
+        order.push_back(*next);
+        raw += bytes(*next);
+        base64 += 4 * ((bytes(*next) + 2) / 3);
+        left.erase(next);
     }
-    return first;
+    return order;
 }
 
 std::string opening(const std::string& type)
