@@ -9,6 +9,7 @@
 #include <lacuna/io/leave_out.h>
 #include <lacuna/io/shared/deck_facets.h>
 #include <lacuna/io/shared/units.h>
+#include <lacuna/topology/shared/gaps.h>
 
 #include <algorithm>
 #include <cctype>
@@ -210,8 +211,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
 void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& context)
 {
     topology::Model& model = loaded.model;
-    constexpr double kMostTolerance = 0.01; // share of the diagonal: a larger tolerance joins separate parts
-    if (model.tolerance > kMostTolerance * model.diagonal) {
+    if (model.tolerance > topology::kMostTolerance * model.diagonal) {
         throw InvalidInput(Message("io.tolerance",
                                    "the tolerance {:.6g} exceeds a hundredth of the model's diagonal "
                                    "({:.6g}), so faces would collapse",

@@ -20,9 +20,6 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Gaps wider than this share of the diagonal are not sewn: io::load_facets() accepts no larger tolerance.
-constexpr double kWidestSewn = 0.01;
-
 /// Free edges as degenerate facets.
 struct Lines {
     std::vector<Triangle> sides;
@@ -42,7 +39,7 @@ std::vector<Gap> gaps(const Model& model, const RunContext& context)
         if (model.uses_of_edge(EdgeId(e)).size() == 1) free.emplace_back(e);
     const auto part = [&](EdgeId edge) { return part_of[model.uses_of_edge(edge).front().face.index()]; };
 
-    const double reach = kWidestSewn * model.diagonal;
+    const double reach = kMostTolerance * model.diagonal;
     // The points of each free edge, followed by its middle. The edge that is closest to the middle is
     // reported, because several edges may be equally close to an end of the edge.
     std::vector<std::vector<Vec3>> places(free.size());

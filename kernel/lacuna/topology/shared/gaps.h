@@ -9,6 +9,9 @@
 
 namespace lacuna::topology {
 
+/// Largest tolerance of loading, as a share of the diagonal: a larger one would join separate parts.
+inline constexpr double kMostTolerance = 0.01;
+
 /// Two free edges that are close to each other and belong to unconnected parts of a model.
 struct Gap {
     EdgeId own, other;
