@@ -40,8 +40,6 @@ constexpr std::uint64_t kMegabyte = 1'000'000; ///< unit of LACUNA_CAD_MEGABYTES
 /// Address space of a request: the libraries take about 0.6 GB, a model of 86 kB less than 0.2 GB.
 constexpr std::uint64_t kMemory = std::uint64_t{1792} << 20;
 constexpr std::uint64_t kMemoryPerByte = 2000, kMemoryPerPoint = 2000;
-/// Time limit of starting a process [s]: libraries may be read from a slow disk.
-constexpr double kStartSeconds = 60;
 /// Bytes of a process's output that an error message quotes.
 constexpr std::size_t kLastWords = 300;
 
@@ -271,8 +269,9 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
                                .remedy("use a kernel of Linux 5.3 or later"));
     }
     channel_ = std::make_unique<Channel>(std::move(ours));
+    const double start_seconds = kWallFactor * kSeconds; // as for a request without data
     try {
-        const Frame frame = channel_->receive(patience_of(context, kStartSeconds));
+        const Frame frame = channel_->receive(patience_of(context, start_seconds));
         if (frame.opcode == Opcode::failed) {
             throw BackendError(Message(decode<Failure>(frame.bytes).message));
         }
@@ -281,7 +280,7 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
     } catch (const TimeOver&) {
         end();
         throw BackendError(
-            Message("cad.no_worker", "{} did not answer within {:.3g} s", program, needed(kStartSeconds))
+            Message("cad.no_worker", "{} did not answer within {:.3g} s", program, needed(start_seconds))
                 .remedy("check the installation of lacuna-cad"));
     } catch (const ChannelClosed&) {
         end();

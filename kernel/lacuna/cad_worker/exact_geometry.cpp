@@ -22,7 +22,6 @@ namespace {
 /// Near the surface, a step with first derivatives gains a digit or more. Points that are as far away as the
 /// radius of curvature need second derivatives.
 constexpr int kCheapSteps = 8;
-constexpr int kMaxSteps = 60;
 /// Convergence tolerance, relative to the diagonal of the model.
 constexpr double kPrecision = 1e-10;
 
@@ -194,7 +193,7 @@ void project_on_face(const CadSource& source, int tag, std::span<Vec3> points, s
         const double precision = kPrecision * source.diagonal;
         const std::vector<SurfaceFrame> frames = surface_frames(tag, start);
         for (std::size_t i = 0; i < all.size(); ++i) leave_pole(all[i], frames[i], tag, box, precision);
-        for (int step = 0; step < kMaxSteps; ++step) {
+        for (int step = 0; step < kMostRounds; ++step) {
             if (advance(all, active, tag, box, precision, step >= kCheapSteps) == 0) break;
         }
         for (const std::size_t i : active) {
