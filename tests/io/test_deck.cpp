@@ -255,7 +255,7 @@ TEST_CASE("middle nodes lie in the middle of their sides whichever order a forma
 
 TEST_CASE("the faces of a solid, each once, close it and look out")
 {
-    for (std::size_t s = 0; s < io::kDeckShapes; ++s) {
+    for (std::size_t s = 0; s < mesh::kCellShapes; ++s) {
         const auto shape = static_cast<io::DeckShape>(s);
         if (io::shape_info(shape).dimension != 3) continue;
         const std::vector<Vec3> at = reference(shape);

@@ -106,7 +106,7 @@ TEST_CASE("elements of every shape a format has come back with their numbers and
 TEST_CASE("Gmsh's and VTK's files hold every shape, to the bit, with numbers and groups")
 {
     std::vector<DeckShape> shapes;
-    for (std::size_t s = 0; s < io::kDeckShapes; ++s)
+    for (std::size_t s = 0; s < mesh::kCellShapes; ++s)
         if (io::shape_info(static_cast<DeckShape>(s)).dimension > 1 &&
             static_cast<DeckShape>(s) != DeckShape::pyramid14) // VTK's full pyramid has more nodes
             shapes.push_back(static_cast<DeckShape>(s));

@@ -39,7 +39,6 @@ enum class DeckFormat {
 using DeckShape = mesh::CellShape;
 using DeckShapeInfo = mesh::CellShapeInfo;
 using DeckSide = mesh::CellSide;
-inline constexpr std::size_t kDeckShapes = mesh::kCellShapes;
 using mesh::face_corners;
 using mesh::find_shape;
 using mesh::shape_info;

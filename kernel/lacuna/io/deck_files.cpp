@@ -5,6 +5,7 @@
 #include <lacuna/io/detail/input_file.h>
 
 #include <algorithm>
+#include <climits>
 
 namespace lacuna::io {
 namespace fs = std::filesystem;
@@ -25,7 +26,7 @@ DeckFiles::DeckFiles(Cursor& main) : main_(main), folder_(fs::path(main.path()).
 
 Cursor& DeckFiles::include(const std::string& name, const DeckPlace& place)
 {
-    if (name.empty() || name.size() > kLongestName || name.find('\0') != std::string::npos)
+    if (name.empty() || name.size() > PATH_MAX || name.find('\0') != std::string::npos)
         place.fail("INCLUDE: expected the name of a file");
     if (files_.size() >= kMostFiles) place.fail("INCLUDE: the deck includes more than {} files", kMostFiles);
     // Links are resolved before comparing.

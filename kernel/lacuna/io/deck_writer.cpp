@@ -189,10 +189,9 @@ std::string abaqus_name(std::string_view name)
 std::string free_name(std::string_view name, DeckFormat format,
                       const std::function<bool(const std::string&)>& is_taken)
 {
-    constexpr std::size_t kLongest = 80; // maximum length of a name in Abaqus and CalculiX
     const bool abaqus = format == DeckFormat::abaqus;
     const std::string fit = abaqus ? abaqus_name(name) : std::string(name);
-    const std::size_t longest = abaqus ? kLongest : fit.npos;
+    const std::size_t longest = abaqus ? kCardColumns : fit.npos;
     std::string unique = fit.substr(0, longest);
     for (int i = 2; is_taken(unique); ++i) {
         const std::string number = "_" + std::to_string(i);

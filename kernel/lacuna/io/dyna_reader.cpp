@@ -26,8 +26,6 @@ using enum DeckShape;
 using namespace dyna_keyword;
 using mesh::SetKind;
 
-constexpr std::size_t kLong = 20; // columns of each field in long format
-
 /// Patterns of repeated nodes that are read besides those that are written: a wedge whose triangle is swept,
 /// and a tetrahedron on its first three corners.
 constexpr Degenerate kReadToo[] = {{wedge6, {0, 1, 2, 2, 3, 4, 5, 5}}, {tet4, {0, 1, 2, 2, 3, 3, 3, 3}}};
@@ -106,12 +104,13 @@ private:
     {
         keyword_ = dyna_keyword_of(line);
         const std::string_view end = trimmed(line.substr(0, line.find('$')));
+        // In long format, each field has twice the columns.
         const auto width_of = [&](std::size_t plain) {
-            return end.ends_with('+') || (long_ && !end.ends_with('-'))  ? kLong
+            return end.ends_with('+') || (long_ && !end.ends_with('-'))  ? 2 * kDynaSetField
                    : end.ends_with('%') || (ten_ && !end.ends_with('-')) ? std::max(plain, kDynaSetField)
                                                                          : plain;
         };
-        width_ = width_of(kDynaField);
+        width_ = width_of(kCardField);
         mode_ = Mode::keep;
         std::string base = keyword_;
         const bool titled = base.ends_with("_TITLE");
@@ -185,7 +184,7 @@ private:
 
     void take_node(std::string_view line)
     {
-        const std::size_t real = width_ == kLong ? kLong : kDynaReal;
+        const std::size_t real = std::max(width_, kLargeCardField);
         const auto fields = dyna_fields(line, width_, real, 4);
         Vec3 point = Vec3::Zero();
         if (fields.empty() || fields[0].empty()) place_.fail("expected the number of a node, found none");
@@ -201,7 +200,7 @@ private:
             more = fields.size() < 4 ? "" : line.substr(std::min(line.size(), text_after(line, fields[3])));
         std::string text;
         for (const std::string_view field : dyna_fields(more, width_, width_, 2))
-            text += std::string(kDynaField - std::min(kDynaField, field.size()), ' ').append(field);
+            text += std::string(kCardField - std::min(kCardField, field.size()), ' ').append(field);
         if (text.find_first_not_of(" 0.") != text.npos)
             into_.deck().point_more.emplace_back(into_.points().size() - 1, std::move(text));
     }
@@ -440,7 +439,7 @@ private:
     Mode mode_ = Mode::keep;
     std::set<std::string> unread_; ///< keywords of elements that are kept as text
     bool begun_ = false, long_ = false, ten_ = false;
-    std::size_t width_ = kDynaField;
+    std::size_t width_ = kCardField;
     std::vector<Index> head_line_, nodes_; ///< the element that is being read: its number and part, and
                                            ///< its nodes
     std::vector<SetCard> sets_;

@@ -69,18 +69,19 @@ private:
     {
         const auto put = [more = view_->kept ? kept_->points : MeshView::TextByIndex()](
                              std::size_t p, DeckTag tag, const Vec3& point, char* out) {
-            out = put_right(out, tag, kDynaField);
+            out = put_right(out, tag, kCardField);
             for (const double x : point) {
-                char text[kDynaReal];
-                out = put_right(out, {text, static_cast<std::size_t>(put_real(text, x, kDynaReal) - text)},
-                                kDynaReal);
+                char text[kLargeCardField];
+                out = put_right(out,
+                                {text, static_cast<std::size_t>(put_real(text, x, kLargeCardField) - text)},
+                                kLargeCardField);
             }
             out = put_words(out, text_of(more, p));
             *out++ = '\n';
             return out;
         };
         file_.sections.push_back(
-            section_of_points("*NODE" + end_, view_, 3 * (kDynaField + kDynaReal) + 1, put));
+            section_of_points("*NODE" + end_, view_, 3 * (kCardField + kLargeCardField) + 1, put));
     }
 
     void add_elements(std::size_t b)
@@ -97,10 +98,10 @@ private:
         file_.add("*" + keyword + end_);
         const auto put = [=, view = view_](std::size_t, DeckTag tag, Index region, std::span<const Index> own,
                                            char* out) {
-            out = put_right(out, tag, kDynaField);
-            out = put_right(out, region < 0 ? 0 : view->regions[index(region)].tag, kDynaField);
+            out = put_right(out, tag, kCardField);
+            out = put_right(out, region < 0 ? 0 : view->regions[index(region)].tag, kCardField);
             const auto put_node = [&](std::size_t k) {
-                out = put_right(out, view->point_tags[index(own[k])], kDynaField);
+                out = put_right(out, view->point_tags[index(own[k])], kCardField);
             };
             if (pattern != std::end(kDegenerate)) {
                 for (const std::uint8_t k : pattern->fields) put_node(k);
@@ -114,7 +115,7 @@ private:
             *out++ = '\n';
             return out;
         };
-        file_.sections.push_back(section_of_cells(view_, b, 24 * kDynaField, put));
+        file_.sections.push_back(section_of_cells(view_, b, 24 * kCardField, put));
         for (const auto& [end, region] : block.regions)
             if (region >= 0) forms_[region].insert(block.shape);
         for (const auto& [end, region] : block.regions)
@@ -258,7 +259,7 @@ private:
 
 DeckFile dyna_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
-    check_numbers(*view, highest_of(kDynaField), "an LS-DYNA deck",
+    check_numbers(*view, highest_of(kCardField), "an LS-DYNA deck",
                   "give first_node and first_cell, or write another format");
     return DynaWriter(view, options.unit).write();
 }

@@ -23,7 +23,7 @@ using mesh::SetKind;
 /// The word of a shape; empty: FEBio has none.
 std::string_view word_of(DeckShape shape)
 {
-    constexpr std::string_view kWords[kDeckShapes] = {
+    constexpr std::string_view kWords[mesh::kCellShapes] = {
         "",      "",       "tri3", "tri6",   "quad4",   "quad8", "quad9", "tet4",  "tet10",
         "pyra5", "pyra13", "",     "penta6", "penta15", "",      "hex8",  "hex20", "hex27"};
     return kWords[static_cast<std::size_t>(shape)];

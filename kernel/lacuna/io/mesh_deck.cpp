@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/mesh_deck.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
@@ -123,11 +124,9 @@ private:
                                     "middle nodes");
     }
 
-    /// Check for cancellation about once a millisecond.
     void poll(std::size_t done) const
     {
-        constexpr std::size_t kPolled = 65536;
-        if (done % kPolled == 0) check_cancelled(context_);
+        if (done % kBetweenPolls == 0) check_cancelled(context_);
     }
 
     /// Whether the deck stores the nodes and cells of the mesh.

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <climits>
 
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kFields = kCardColumns / kField - 2; // data fields of a line; large ones take two lines
+constexpr std::size_t kFields = kCardColumns / kCardField -
+                                2; // data fields of a line; large ones take two lines
 /// Number of cards that replication may create, in addition to one card for each sixteen bytes of the file.
 /// Without a limit, a wrong count would fill the memory. Not measured.
 constexpr std::size_t kReplicas = 10'000;
@@ -35,8 +37,8 @@ bool is_free(std::string_view line)
     const std::string_view before = line.substr(0, line.find(','));
     if (before.size() == line.size()) return false;
     const std::string_view word = trimmed(before);
-    return word.empty() ||
-           (before.find_first_not_of(" \t") < kField && word.find_first_of(" \t") == std::string_view::npos);
+    return word.empty() || (before.find_first_not_of(" \t") < kCardField &&
+                            word.find_first_of(" \t") == std::string_view::npos);
 }
 
 /// The number n in `*n`, `*(n)`, `=n` and `=(n)`.
@@ -191,7 +193,7 @@ void BulkData::include(Cursor& cursor, std::string_view rest, std::uint64_t from
     if (name.starts_with('\'') || name.starts_with('"')) {
         const char quote = name[0];
         while (name.find(quote, 1) == std::string::npos) {
-            if (cursor.at_end() || name.size() > DeckFiles::kLongestName)
+            if (cursor.at_end() || name.size() > PATH_MAX)
                 place.fail("INCLUDE: the name has no closing quote");
             name += cursor.line();
         }
@@ -235,7 +237,7 @@ void BulkData::fixed_fields(std::string_view line)
         for (const char c : line) {
             if (wide.size() >= kCardColumns) break;
             if (c == '\t')
-                wide.append(kField - wide.size() % kField, ' ');
+                wide.append(kCardField - wide.size() % kCardField, ' ');
             else
                 wide += c;
         }
@@ -244,11 +246,11 @@ void BulkData::fixed_fields(std::string_view line)
     const auto field = [&](std::size_t begin, std::size_t length) {
         return begin < line.size() ? trimmed(line.substr(begin, length)) : std::string_view();
     };
-    line_.push_back(field(0, kField));
-    const std::size_t width = is_large(line_[0]) ? kLargeField : kField;
-    for (std::size_t begin = kField; begin < kCardColumns - kField; begin += width)
+    line_.push_back(field(0, kCardField));
+    const std::size_t width = is_large(line_[0]) ? kLargeCardField : kCardField;
+    for (std::size_t begin = kCardField; begin < kCardColumns - kCardField; begin += width)
         line_.push_back(field(begin, width));
-    line_.push_back(field(kCardColumns - kField, kField));
+    line_.push_back(field(kCardColumns - kCardField, kCardField));
 }
 
 void BulkData::read_line(const Cursor& cursor, std::uint64_t file, std::string_view line,
@@ -321,7 +323,7 @@ void BulkData::begin_card(std::string_view name, const DeckPlace& place)
     const auto fits = [](unsigned char c) { return std::isalnum(c) != 0; };
     const bool nameless = parse_integer<Index>(name).has_value();
     if (!nameless && (std::isalpha(static_cast<unsigned char>(name.empty() ? ' ' : name[0])) == 0 ||
-                      name.size() > kField || !std::ranges::all_of(name, fits)))
+                      name.size() > kCardField || !std::ranges::all_of(name, fits)))
         place.fail("expected the name of a bulk data card, found {}", found(shown(name)));
     end_card();
     open_ = true;
@@ -399,7 +401,7 @@ void BulkData::replicate(std::string_view count, const DeckPlace& place)
     const auto times = parse_integer<Index>(count);
     if (!times || *times < 1 || !open_ || !replica_ || is_named(marker_))
         place.fail("expected =n with a count above 0 right below a card that begins with =, found ={}",
-                   count.substr(0, kField));
+                   count.substr(0, kCardField));
     if (index(*times) > room_)
         place.fail(Message(kUnreadable, "={} generates too many cards for a deck of this size", *times)
                        .remedy("write them out"));
@@ -488,7 +490,7 @@ void BulkData::finish()
     const auto place = [](const auto& waiting) { return waiting.second.card.place.number(); };
     if (!continuations_.empty()) {
         const Waiting& line = std::ranges::min_element(continuations_, {}, place)->second;
-        const std::string text = shown(line.raw.substr(0, kField));
+        const std::string text = shown(line.raw.substr(0, kCardField));
         if (cards_.empty()) line.card.place.fail("the continuation {} belongs to no card", text);
         const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
         card.card.fail("its continuation {} is missing, and the continuation {} belongs to no card",

@@ -35,7 +35,7 @@ public:
     void add_real(double value)
     {
         char* const at = digits_.data() + used_;
-        char* const end = put_real(at, value, kLargeField, RealForm::nastran);
+        char* const end = put_real(at, value, kLargeCardField, RealForm::nastran);
         used_ += kNumberBytes;
         fields_.emplace_back(at, static_cast<std::size_t>(end - at));
     }
@@ -51,22 +51,22 @@ public:
     char* put(char* out, std::string_view name, bool large = false)
     {
         while (!fields_.empty() && fields_.back().empty()) fields_.pop_back();
-        std::size_t longest = large ? kLargeField : 0;
+        std::size_t longest = large ? kLargeCardField : 0;
         for (const std::string_view field : fields_) longest = std::max(longest, field.size());
-        if (longest > kLargeField) return put_free(out, name);
-        const std::size_t width = longest > kField ? kLargeField : kField;
-        const std::size_t per_line = 8 * kField / width;
-        const std::string_view next = width == kField ? "+" : "*";
+        if (longest > kLargeCardField) return put_free(out, name);
+        const std::size_t width = longest > kCardField ? kLargeCardField : kCardField;
+        const std::size_t per_line = 8 * kCardField / width;
+        const std::string_view next = width == kCardField ? "+" : "*";
         out = put_words(out, name);
-        if (width == kLargeField) *out++ = '*';
-        std::size_t column = name.size() + (width == kLargeField ? 1 : 0);
+        if (width == kLargeCardField) *out++ = '*';
+        std::size_t column = name.size() + (width == kLargeCardField ? 1 : 0);
         for (std::size_t f = 0; f < fields_.size(); ++f) {
-            std::size_t start = kField + f % per_line * width;
+            std::size_t start = kCardField + f % per_line * width;
             if (f > 0 && f % per_line == 0) {
                 *out++ = '\n';
                 out = put_words(out, next);
                 column = next.size();
-                start = kField;
+                start = kCardField;
             }
             start += width - fields_[f].size();
             for (; column < start; ++column) *out++ = ' ';
@@ -79,7 +79,7 @@ public:
     /// Upper bound on the bytes of a card with this number of fields, none longer than `longest`.
     static std::size_t room(std::size_t fields, std::size_t longest)
     {
-        return (std::max(longest, kLargeField) + 4) * (fields + 8) + 32;
+        return (std::max(longest, kLargeCardField) + 4) * (fields + 8) + 32;
     }
 
 private:
@@ -124,7 +124,7 @@ void add_nodes(const View& view, DeckFile& file)
         return card.put(out, "GRID", true);
     };
     file.sections.push_back(
-        section_of_points({}, view, CardWriter::room(5, kLargeField) + room_of(more), put));
+        section_of_points({}, view, CardWriter::room(5, kLargeCardField) + room_of(more), put));
 }
 
 void add_elements(const View& view, std::size_t b, DeckFile& file)
@@ -197,7 +197,7 @@ std::string property_text(const MeshView& view)
     return text;
 }
 
-std::string real(double value) { return real_text(value, kLargeField, RealForm::nastran); }
+std::string real(double value) { return real_text(value, kLargeCardField, RealForm::nastran); }
 
 /// Multipoint constraints of periodic faces, all in set 1, with a GRID for each reference node.
 std::string periodic_text(const MeshView& view)

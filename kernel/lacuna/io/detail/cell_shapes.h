@@ -19,7 +19,7 @@ struct ShapeWords {
     const char *abaqus, *nastran, *exodus;
     int unv, gmsh, vtk;
 };
-inline constexpr ShapeWords kShapeWords[kDeckShapes] = {
+inline constexpr ShapeWords kShapeWords[mesh::kCellShapes] = {
     // lines, triangles, quads
     {"", "", "", 0, 1, 3},
     {"", "", "", 0, 8, 21},
@@ -45,8 +45,9 @@ inline const ShapeWords& words_of(DeckShape shape) { return kShapeWords[static_c
 /// The shape with a given number (above 0) in a format; empty: no shape has it.
 inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int64_t number)
 {
-    for (std::size_t s = kDeckShapes; s-- > 0;) // backwards: a brick comes before the pyramid that is written
-                                                // as one
+    for (std::size_t s = mesh::kCellShapes;
+         s-- > 0;) // backwards: a brick comes before the pyramid that is written
+                   // as one
         if (number > 0 && kShapeWords[s].*format == number) return static_cast<DeckShape>(s);
     return {};
 }

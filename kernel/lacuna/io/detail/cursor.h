@@ -22,6 +22,11 @@ namespace lacuna::io {
 
 /// Columns of a line in the formats that began on punched cards.
 inline constexpr std::size_t kCardColumns = 80;
+/// Columns of a field: of LS-DYNA's numbers of nodes and elements, and of Nastran's small fields. The first
+/// and the last field of a Nastran line are always small.
+inline constexpr std::size_t kCardField = 8;
+/// Columns of a field of twice the width: of LS-DYNA's coordinates, and of Nastran's large fields.
+inline constexpr std::size_t kLargeCardField = 2 * kCardField;
 /// How a file stores numbers.
 enum class Coding { text, little, big };
 /// Whether `1.5D+3` and `1.5+3` are numbers too.

@@ -42,8 +42,6 @@ public:
     [[nodiscard]] std::uint64_t last() const { return files_.size(); }
     [[nodiscard]] DeckPlace place_of(std::uint64_t number) const;
 
-    static constexpr std::size_t kLongestName = 4096; // characters of a file's name, the limit of Linux
-
 private:
     struct File;
     Cursor& main_;

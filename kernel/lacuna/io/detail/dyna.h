@@ -16,8 +16,6 @@
 /// User's Manual, volume I: https://lsdyna.ansys.com/manuals/
 namespace lacuna::io {
 
-inline constexpr std::size_t kDynaField = 8;             ///< columns of a number of a node or an element
-inline constexpr std::size_t kDynaReal = 2 * kDynaField; ///< columns of a coordinate
 inline constexpr std::size_t kDynaSetField = 10; ///< columns of a number of a set, a part or a section
 
 /// For each of the eight node fields of a solid, the index of the cell's corner there.

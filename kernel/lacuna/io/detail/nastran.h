@@ -13,10 +13,6 @@
 /// Cards and coordinate frames of Nastran bulk data. Internal to this folder.
 namespace lacuna::io {
 
-inline constexpr std::size_t kField = 8; ///< characters of a small field; the first and last field of a line
-                                         ///< are always small
-inline constexpr std::size_t kLargeField = 2 * kField; ///< characters
-
 /// A bulk data entry. Fields are numbered from 2, as in the manuals; omitted fields are blank.
 struct Card {
     std::string name;                     ///< in capitals

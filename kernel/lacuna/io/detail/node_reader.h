@@ -4,6 +4,7 @@
 #include <lacuna/io/mesh_file.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/mesh/shared/mesh_view.h>
 
 #include <algorithm>
 #include <array>
@@ -122,11 +123,10 @@ public:
     template <class CellOf, class Visit>
     void each_cell(std::size_t begin, std::size_t end, const CellOf& cell_of, const Visit& visit) const
     {
-        constexpr std::size_t kBlock = 1024; // fits into the first-level cache; not measured
-        std::array<std::uint32_t, kBlock> cells;
-        std::array<double, kBlock> values;
+        std::array<std::uint32_t, mesh::MeshView::Block::kAtOnce> cells;
+        std::array<double, cells.size()> values;
         while (begin < end) {
-            const std::size_t count = std::min(kBlock, end - begin);
+            const std::size_t count = std::min(cells.size(), end - begin);
             for (std::size_t k = 0; k < count; ++k) cells[k] = static_cast<std::uint32_t>(cell_of(begin + k));
             make_(std::span<const std::uint32_t>(cells).first(count), values.data());
             for (std::size_t k = 0; k < count; ++k) visit(begin + k, values[k]);
