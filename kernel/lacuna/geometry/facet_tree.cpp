@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -20,9 +21,10 @@ using Corners = std::array<Vec3, 3>;
 
 /// Limit on the triangles in a leaf.
 constexpr std::uint32_t kLeaf = 4;
-/// Each level halves the triangles, so 2^31 triangles need at most 31 levels; a depth-first traversal stores
-/// one sibling per level.
-constexpr std::size_t kMaxDepth = 64;
+/// Stack of a depth-first traversal, which stores one sibling per level. Each level halves the triangles, so
+/// there are fewer levels than bits in the number of a node.
+template <class Entry, std::size_t trees = 1>
+using Stack = std::array<Entry, trees * std::numeric_limits<std::uint32_t>::digits>;
 
 Box box_of(const Corners& c)
 {
@@ -233,7 +235,7 @@ FacetTree::Hit FacetTree::closest(const Vec3& p, double max_distance2) const
     Hit best;
     if (node_.empty()) return best;
     double reach = max_distance2;
-    std::array<std::pair<std::uint32_t, double>, kMaxDepth> stack;
+    Stack<std::pair<std::uint32_t, double>> stack;
     std::size_t depth = 0;
     stack[depth++] = {0, distance2(node_.front().box, p)};
     while (depth > 0) {
@@ -281,7 +283,7 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
     };
     // Each step splits the larger node of a pair, which gives two pairs. The stack therefore holds at most
     // twice as many pairs as a tree has levels.
-    std::array<std::pair<std::uint32_t, std::uint32_t>, 2 * kMaxDepth> stack;
+    Stack<std::pair<std::uint32_t, std::uint32_t>, 2> stack;
     std::size_t depth = 0;
     stack[depth++] = {0, 0};
     for (std::size_t steps = 0; depth > 0; ++steps) {
@@ -307,7 +309,7 @@ template <class Enters, class Visit>
 bool FacetTree::each_leaf(const Enters& enters, const Visit& visit) const
 {
     if (node_.empty()) return true;
-    std::array<std::uint32_t, kMaxDepth> stack;
+    Stack<std::uint32_t> stack;
     std::size_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
