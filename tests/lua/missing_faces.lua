@@ -83,6 +83,11 @@ for _ = 1, whole and 6 or 1 do
       .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}"
   local link = ("Box(1)={-6,%g,0,6,%g,%g}; Cylinder(2)={0,0,0,0,0,%g,%g};"):format(-r2, 2 * r2, h, h, r2)
       .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}"
+  local slanted = ("Box(1)={-6,%g,-3,6,%g,%g}; Cylinder(2)={0,0,-3,0,0,%g,%g};"):format(-0.7 * r2, 1.4 * r2,
+      h + 6, h + 6, r2) .. "BooleanUnion(3)={Volume{1};Delete;}{Volume{2};Delete;};"
+      .. ("Box(4)={-20,-20,%g,40,40,20}; Rotate{{0,1,0},{0,0,%g},0.2}{Volume{4};}"):format(h, h)
+      .. "Box(5)={-20,-20,-20,40,40,20}; Rotate{{1,0,0},{0,0,0},0.1}{Volume{5};}"
+      .. "BooleanDifference{Volume{3};Delete;}{Volume{4,5};Delete;}"
   local angle = ("Box(1)={0,0,0,8,5,%g}; Box(2)={0,0,0,%g,5,6};"):format(r1, r1)
       .. "BooleanUnion(3)={Volume{1};Delete;}{Volume{2};Delete;};"
       .. ("Cylinder(4)={5,2.5,-1,0,0,5,%g};"):format(r1)
@@ -101,6 +106,13 @@ for _ = 1, whole and 6 or 1 do
     { "wall that a branch leaves", tee, { { -r3, 0, 1 } }, },
     { "wall that an arm leaves", lever, { { -r2, 0, h / 2 } }, },
     { "round end and top of a link", link, { { r2, 0, h / 2 }, { -3, 0, h } }, },
+    { "round end of a slanted link", slanted, { { r2, 0, h / 2 } }, false },
+    { "round end and slanted top of a link", slanted, { { r2, 0, h / 2 }, { -3, 0, h + 0.6 } }, false },
+    { "round end and other end of a link", slanted, { { r2, 0, h / 2 }, { -3, 0, 0 } }, false },
+    { "bore of an angle, its mouth and an end", angle,
+      { { 5 + r1, 2.5, r1 / 2 }, { 7.5, 2.5, r1 }, { 8, 2.5, r1 / 2 } }, true },
+    { "bore of an angle, its other mouth and a side", angle,
+      { { 5 + r1, 2.5, r1 / 2 }, { 7.5, 2.5, 0 }, { 7.5, 0, r1 / 2 } }, true },
     { "wall and shoulder of a shaft", shaft, { { r2, 0, 3 + h / 2 }, { (r2 + r3) / 2, 0, top } }, true },
     { "other shoulder and wall", shaft, { { r2, 0, 3 + h / 2 }, { (r2 + r1) / 2, 0, 3 } }, true },
     { "blind bore and the face round its mouth", blind, { { r3, 0, top - 0.5 }, { 2.8, 2.8, top } }, true },

@@ -51,7 +51,6 @@ struct ToFill {
     std::vector<Loop> flat, bent;
 };
 
-
 std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const RunContext& context)
 {
     Model& model = filling.volume.model;
@@ -59,7 +58,6 @@ std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const
     std::vector<Rim> loops = free_loops(filling.volume);
     if (missing == Missing::any) {
         loops = add_tubes(filling, simple_loops(model, loops), context);
-        loops = add_straight_walls(filling, std::move(loops), context);
     }
     for (const Rim& rim : loops) {
         if (is_flat(model, rim)) {
@@ -83,6 +81,7 @@ std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const
         filling.each_alone = false;
         filling.channel = filling.channel || split->channel;
     }
+    if (missing == Missing::any) result.flat = add_straight_walls(filling, std::move(result.flat), context);
     return result;
 }
 

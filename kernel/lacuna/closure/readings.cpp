@@ -177,10 +177,10 @@ bool closes_hole(const Model& model, const Closure& closure)
 }
 
 /// Replace the readings by that of `read_filled()` if this one is sure:
-/// - If the readings differ in volume, or in whether holes go through, it must close no hole, and assume
-///   nothing but round walls between rims.
-/// - If a single reading is a guess, or has a void face whose rim does not determine its shape, it may also
-///   assume that missing faces are flat and missing walls straight.
+/// - If the readings differ in volume, or in whether holes go through, it must close no hole.
+/// - If the readings differ in volume, or the user is asked about holes (`leave_holes_open()`), it may assume
+///   nothing but round walls between rims; otherwise also that missing faces are flat and missing walls
+///   straight.
 void prefer_told(const Model& model, const std::vector<FaceId>& faces, std::vector<Reading>& readings,
                  const RunContext& context)
 {
@@ -193,11 +193,11 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, std::vect
                                    }));
     if (!differ && !untold && !reading.guess) return;
     auto told = read_filled(model, faces, context);
-    const bool is_sure = told && !told->guess &&
-                         (differ ? !closes_hole(told->volume.model, *told->closure) &&
-                                       assumes_only(*told->closure, {Assumed::round_wall, Assumed::rim})
-                                 : assumes_only(*told->closure,
-                                                {Assumed::straight, Assumed::round_wall, Assumed::rim}));
+    if (!told || told->guess || (differ && closes_hole(told->volume.model, *told->closure))) return;
+    const bool asks = readings.size() > 1 || leave_holes_open(model, readings, faces, context);
+    const bool is_sure = asks ? assumes_only(*told->closure, {Assumed::round_wall, Assumed::rim})
+                              : assumes_only(*told->closure,
+                                             {Assumed::straight, Assumed::round_wall, Assumed::rim});
     // A reading without `guess` is one connected body. A filling with several parts must not replace it.
     if (is_sure && ((!differ && reading.guess) ||
                     connected_parts(told->volume.model, all_faces(told->volume.model)).size() == 1)) {

@@ -29,6 +29,7 @@
 #include <numbers>
 #include <ranges>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace lacuna::closure {
@@ -93,10 +94,9 @@ struct Circle {
     double radius = 0;
 };
 
-/// The circle through the projections of places on their mean plane; empty if a place is off the circle.
-std::optional<Circle> circle_through(const std::vector<Vec3>& places)
+/// The circle through the projections of places on a plane; empty if a place is off the circle.
+std::optional<Circle> circle_through(const std::vector<Vec3>& places, const geometry::Plane& plane)
 {
-    const geometry::Plane plane = geometry::newell_plane({&places, 1});
     // |p|² = 2 c·p + (r² - |c|²) is linear in the unknowns.
     const auto count = static_cast<Eigen::Index>(places.size());
     Eigen::MatrixXd left(count, 3);
@@ -136,7 +136,8 @@ std::optional<RoundRim> round_rim(const Model& model, const Rim& rim, std::size_
 
 std::optional<RoundRim> round_rim(const Model& model, const Rim& rim, std::size_t loop)
 {
-    const std::optional<Circle> circle = circle_through(loop_places(model, rim.uses));
+    const std::vector<Vec3> places = loop_places(model, rim.uses);
+    const auto circle = circle_through(places, geometry::newell_plane({&places, 1}));
     return circle ? round_rim(model, rim, loop, *circle) : std::nullopt;
 }
 
@@ -412,39 +413,91 @@ struct RoundWall {
     [[nodiscard]] double radius_at(double height) const { return radius + slope * height; }
 };
 
-/// The round wall through a whole loop, found from an edge of the loop that is an arc round the axis of the
-/// wall; empty if there is none.
-std::optional<RoundWall> wall_through(const Model& model, const Loop& loop)
+/// Consecutive sides of a rim, each with both of its ends.
+using Sides = std::vector<std::vector<Vec3>>;
+
+bool is_one_line(const std::vector<Vec3>& side)
 {
-    std::vector<Vec3> places = loop_places(model, loop.uses);
-    for (const EdgeUse& use : loop.uses) // a chord has its ends on the wall, but not its middle
-        if (is_straight(model, {use}))
-            places.push_back((use_places(model, use).front() + use_places(model, use).back()) / 2);
-    for (const EdgeUse& use : loop.uses) {
-        const std::vector<Vec3> arc = use_places(model, use);
-        if (arc.size() < 4 || is_straight(model, {use})) continue; // any three points lie on a circle
-        const std::optional<Circle> circle = circle_through(arc);
-        const auto is_flat_arc = [&](const Vec3& p) {
-            return std::abs(geometry::height(circle->base, p)) <= kVisible * circle->radius;
-        };
-        if (!circle || !std::ranges::all_of(arc, is_flat_arc)) continue;
+    const Vec3 way = (side.back() - side.front()).stableNormalized();
+    return std::ranges::all_of(side, [&](const Vec3& p) {
+        return (p - side.front()).cross(way).norm() <= kFileAccuracy * geometry::length(side);
+    });
+}
+
+/// The circles across the axes that a round wall along some sides may have: that of each side that is an arc
+/// about the axis, and those about the directions of the straight sides.
+std::vector<Circle> circles_across(const Sides& sides, const std::vector<Vec3>& places)
+{
+    std::vector<Circle> arcs, across;
+    for (const std::vector<Vec3>& side : sides) {
+        if (is_one_line(side)) {
+            const geometry::Plane plane = geometry::plane_across(side.front(),
+                                                                 (side.back() - side.front()).normalized());
+            std::vector<Vec3> image;
+            for (const Vec3& p : places) image.push_back(p - geometry::height(plane, p) * plane.normal);
+            if (auto circle = circle_through(image, plane)) across.push_back(*circle);
+        } else if (side.size() > 3) { // any three points lie on a circle
+            const auto circle = circle_through(side, geometry::newell_plane({&side, 1}));
+            if (circle && std::ranges::all_of(side, [&](const Vec3& p) {
+                    return std::abs(geometry::height(circle->base, p)) <= kVisible * circle->radius;
+                }))
+                arcs.push_back(*circle);
+        }
+    }
+    arcs.insert(arcs.end(), across.begin(), across.end());
+    return arcs;
+}
+
+/// Mean length of the segments of the sides that are not straight [model length].
+double bent_step(const Sides& sides)
+{
+    double sum = 0;
+    std::size_t segments = 0;
+    for (const std::vector<Vec3>& side : sides) {
+        if (is_one_line(side)) continue;
+        sum += geometry::length(side);
+        segments += side.size() - 1;
+    }
+    return sum / static_cast<double>(segments);
+}
+
+/// The round wall along some sides; empty if there is none.
+std::optional<RoundWall> wall_along(const Sides& sides)
+{
+    std::vector<Vec3> places;
+    for (const std::vector<Vec3>& side : sides) {
+        places.insert(places.end(), side.begin(), side.end());
+        if (is_one_line(side)) // a chord has its ends on the wall, but not its middle
+            places.push_back((side.front() + side.back()) / 2);
+    }
+    if (std::ranges::all_of(sides, is_one_line)) return std::nullopt;
+    for (const Circle& circle : circles_across(sides, places)) {
         const auto count = static_cast<Eigen::Index>(places.size());
         Eigen::MatrixXd left(count, 2);
         Eigen::VectorXd right(count);
         for (Eigen::Index i = 0; i < count; ++i) {
             const Vec3& p = places[static_cast<std::size_t>(i)];
-            left.row(i) << 1, geometry::height(circle->base, p);
-            right(i) = distance_to_axis(circle->base, p);
+            left.row(i) << 1, geometry::height(circle.base, p);
+            right(i) = distance_to_axis(circle.base, p);
         }
+        const double low = left.col(1).minCoeff(), high = left.col(1).maxCoeff();
+        if (high - low <= kVisible * circle.radius) continue; // a single circle determines no wall
         const Eigen::VectorXd fit = geometry::least_squares(left, right);
         const double off = (left * fit - right).cwiseAbs().maxCoeff(), least = right.minCoeff();
-        if (off > kVisible * circle->radius || !(least > kOffShape * circle->radius) ||
-            std::abs(turn_round(circle->base, places)) > kParallel)
-            continue;
-        return RoundWall{circle->base, fit(0), fit(1),
-                         geometry::length(arc) / static_cast<double>(arc.size() - 1)};
+        if (off > kVisible * circle.radius || !(least > kOffShape * circle.radius)) continue;
+        return RoundWall{circle.base, fit(0), fit(1), bent_step(sides)};
     }
     return std::nullopt;
+}
+
+/// The round wall through a whole loop; empty if there is none, or if the loop runs round its axis.
+std::optional<RoundWall> wall_through(const Model& model, const Loop& loop)
+{
+    Sides sides;
+    for (const EdgeUse& use : loop.uses) sides.push_back(use_places(model, use));
+    std::optional<RoundWall> wall = wall_along(sides);
+    if (wall && std::abs(turn_round(wall->base, loop_places(model, loop.uses))) > kParallel) wall.reset();
+    return wall;
 }
 
 } // namespace
@@ -471,7 +524,8 @@ bool continues_given_planes(const Model& model, const Rim& rim)
     const std::vector<Vec3> places = loop_places(model, rim.uses);
     const geometry::Plane plane = geometry::newell_plane({&places, 1});
     return std::ranges::all_of(rim.uses, [&](const EdgeUse& use) {
-        return lies_in_plane(model, model.uses_of_edge(use.edge).front().face, plane);
+        const std::span<const FaceUse> by = model.uses_of_edge(use.edge);
+        return !by.empty() && lies_in_plane(model, by.front().face, plane);
     });
 }
 
@@ -489,6 +543,33 @@ bool is_bent_ring(const Model& model, FaceId face)
 {
     return rims(model, {face}).size() == 2 && !plane_of(model, face) && !round_shape(model, face) &&
            !cone_shape(model, face) && !is_ruled_between_alike(model, model[face].loops.front());
+}
+
+std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, const geometry::Plane& plane)
+{
+    const std::optional<RoundWall> wall = wall_along(sides);
+    if (!wall) return {};
+    double turn = 0;
+    for (const std::vector<Vec3>& side : sides)
+        for (std::size_t i = 1; i < side.size(); ++i)
+            turn += turn_between(angle_at(wall->base, side[i - 1]), angle_at(wall->base, side[i]));
+    const Vec3 &start = sides.back().back(), &end = sides.front().front();
+    const double first = angle_at(wall->base, start);
+    const auto count = static_cast<int>(std::ceil(std::abs(turn) * wall->radius / wall->step - kVisible));
+    std::vector<Vec3> edge{start};
+    for (int k = 1; k < count; ++k) {
+        const double angle = first - turn * k / count;
+        const Vec2 out(std::cos(angle), std::sin(angle));
+        // The place (radius + slope h) out + h axis is in the plane; linear in h.
+        const double across = (geometry::from_plane(wall->base, out) - wall->base.origin).dot(plane.normal);
+        const double along = wall->base.normal.dot(plane.normal) + wall->slope * across;
+        if (std::abs(along) <= kParallel) return {};
+        const double h = -(geometry::height(plane, wall->base.origin) + wall->radius * across) / along;
+        if (!(wall->radius_at(h) > 0)) return {};
+        edge.push_back(geometry::from_plane(wall->base, wall->radius_at(h) * out, h));
+    }
+    edge.push_back(end);
+    return edge.size() > 2 ? edge : std::vector<Vec3>();
 }
 
 std::optional<VoidFilling> fill_round_patch(const Model& model, const Loop& loop, const RunContext& context)

@@ -24,26 +24,28 @@ using namespace topology;
 
 namespace {
 
-/// The given face at the first edge of a rim.
-FaceId given_beside(const Model& model, const Rim& rim)
+/// The given faces at a loop. There are none at the void edges between missing faces.
+std::vector<FaceId> given_beside(const Model& model, const Loop& loop)
 {
-    return model.uses_of_edge(rim.uses.front().edge).front().face;
+    std::vector<FaceId> beside;
+    for (const EdgeUse& use : loop.uses)
+        for (const FaceUse& by : model.uses_of_edge(use.edge)) beside.push_back(by.face);
+    return beside;
 }
 
 /// Whether the given faces at a rim are parallel to the direction `way`. If they are inclined, a missing wall
 /// may be inclined as well.
-bool is_square_to_walls(const Model& model, const Rim& rim, const Vec3& way)
+bool is_square_to_walls(const Model& model, const Loop& loop, const Vec3& way)
 {
-    return std::ranges::all_of(rim.uses, [&](const EdgeUse& use) {
-        const FaceId face = model.uses_of_edge(use.edge).front().face;
+    return std::ranges::all_of(given_beside(model, loop), [&](FaceId face) {
         return std::ranges::all_of(facet_normals(model, face).normals,
                                    [&](const Vec3& n) { return std::abs(n.dot(way)) <= kParallel; });
     });
 }
 
 /// Add the image of a flat rim in a parallel plane, and the walls up to it. @return  the image.
-Rim add_walls_to(FlatFilling& filling, const Rim& rim, const geometry::Plane& plane,
-                 const RunContext& context)
+Loop add_walls_to(FlatFilling& filling, const Loop& rim, const geometry::Plane& plane,
+                  const RunContext& context)
 {
     Model& model = filling.volume.model;
     const auto moved = [&](const Vec3& p) -> Vec3 { return p - geometry::height(plane, p) * plane.normal; };
@@ -56,7 +58,7 @@ Rim add_walls_to(FlatFilling& filling, const Rim& rim, const geometry::Plane& pl
         top.push_back(builder.add_void_vertex(static_cast<Index>(builder.points.size()) - 1));
     }
     model = std::move(builder).finish();
-    Rim image;
+    Loop image;
     std::vector<EdgeId> rungs;
     for (std::size_t i = 0; i < sides; ++i) {
         std::vector<Vec3> between;
@@ -79,20 +81,20 @@ Rim add_walls_to(FlatFilling& filling, const Rim& rim, const geometry::Plane& pl
 
 } // namespace
 
-std::vector<Rim> add_straight_walls(FlatFilling& filling, std::vector<Rim> loops, const RunContext& context)
+std::vector<Loop> add_straight_walls(FlatFilling& filling, std::vector<Loop> loops, const RunContext& context)
 {
     const Model model = filling.volume.model;
     std::vector<std::size_t> needy, other;
     std::vector<geometry::Plane> plane;
     std::vector<std::vector<Vec3>> places;
-    for (const Rim& loop : loops) {
+    for (const Loop& loop : loops) {
         places.push_back(loop_places(model, loop.uses));
         plane.push_back(geometry::newell_plane({&places.back(), 1}));
     }
     for (std::size_t l = 0; l < loops.size(); ++l) {
-        if (continues_given_planes(model, loops[l]))
+        if (continues_given_planes(model, {loops[l].uses}))
             needy.push_back(l);
-        else if (is_flat(model, loops[l]) && is_square_to_walls(model, loops[l], plane[l].normal))
+        else if (is_square_to_walls(model, loops[l], plane[l].normal))
             other.push_back(l);
     }
     for (const std::size_t l : needy) {
@@ -113,7 +115,8 @@ std::vector<Rim> add_straight_walls(FlatFilling& filling, std::vector<Rim> loops
                 end = o;
         }
         if (!end) continue;
-        const std::vector<FaceId> at{given_beside(model, loops[l])}, beyond{given_beside(model, loops[*end])};
+        const std::vector<FaceId> at{given_beside(model, loops[l]).front()},
+            beyond{given_beside(model, loops[*end]).front()};
         loops[l] = add_walls_to(filling, loops[l], plane[*end], context);
         assume(filling.closure,
                {"closure.straight_wall",

@@ -129,8 +129,16 @@ class TouchingFaces {
 public:
     TouchingFaces(const Model& model, const RunContext& context) : model_(model), context_(context) {}
 
-    /// The splits of a loop into two faces, of which at least one is flat.
+    /// The splits of a loop into two faces, of which at least one is flat. The edge between them is a line or
+    /// a copy of the opposite side; only if no such edge fits is it the one in which a plane meets a round
+    /// wall.
     [[nodiscard]] std::vector<FaceSplit> in_two(const FaceChain& loop) const
+    {
+        std::vector<FaceSplit> found = with_copied_edge(loop);
+        return found.empty() ? with_round_edge(loop) : found;
+    }
+
+    [[nodiscard]] std::vector<FaceSplit> with_copied_edge(const FaceChain& loop) const
     {
         std::vector<FaceSplit> found;
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -151,6 +159,27 @@ public:
                          fits(chord, {start_of(flat), end_of(flat), start_of(rest), end_of(rest)}) &&
                          (both || tells_face(closed(rest, chord))))
                     add(found, {closed(flat, turned(chord)), closed(rest, chord)});
+            }
+        }
+        return found;
+    }
+
+    [[nodiscard]] std::vector<FaceSplit> with_round_edge(const FaceChain& loop) const
+    {
+        std::vector<FaceSplit> found;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            check_cancelled(context_);
+            for (std::size_t j = 0; j < loop.size(); ++j) {
+                if (i == j) continue;
+                const FaceChain flat = part_of(loop, i, j), rest = part_of(loop, j, i);
+                const auto plane = plane_of_run(flat);
+                if (!plane || count_turns(points_along(flat)) < 2) continue;
+                std::vector<std::vector<Vec3>> sides;
+                for (const FaceSide& side : rest) sides.push_back(side.points);
+                FaceSide edge{edge_in_plane(sides, *plane), {}, rest.back().to, rest.front().from};
+                if (edge.points.empty() || is_known(edge)) continue;
+                if (plane_of_run(closed(flat, turned(edge))) && tells_face(closed(rest, edge)))
+                    add(found, {closed(flat, turned(edge)), closed(rest, edge)});
             }
         }
         return found;
@@ -272,6 +301,18 @@ private:
         return std::ranges::none_of(model_.edges, [&](const Edge& edge) {
             return std::minmax(edge.from, edge.to) == std::minmax(chord.from, chord.to) &&
                    count_turns(places_at(model_, edge.points)) == 0;
+        });
+    }
+
+    /// Whether an edge with the same ends passes the middle of a void edge.
+    [[nodiscard]] bool is_known(const FaceSide& made) const
+    {
+        const Vec3& middle = made.points[made.points.size() / 2];
+        const double near = kVisible * geometry::length(made.points);
+        return std::ranges::any_of(model_.edges, [&](const Edge& edge) {
+            return std::minmax(edge.from, edge.to) == std::minmax(made.from, made.to) &&
+                   std::ranges::any_of(places_at(model_, edge.points),
+                                       [&](const Vec3& p) { return (p - middle).norm() <= near; });
         });
     }
 

@@ -55,13 +55,21 @@ bool is_bent_ring(const topology::Model& model, FaceId face);
 ///
 /// In that plane, the image and the other rim bound a missing flat face. Example: a bore that is missing
 /// together with the face around its mouth.
-/// @return  the free loops that are left; the image of a rim takes the place of the rim.
-std::vector<topology::Rim> add_straight_walls(FlatFilling& filling, std::vector<topology::Rim> loops,
-                                              const RunContext& context);
+/// @param loops  flat loops of missing faces; they may contain void edges.
+/// @return  the loops of the faces that are left; the image of a rim takes the place of the rim.
+std::vector<topology::Loop> add_straight_walls(FlatFilling& filling, std::vector<topology::Loop> loops,
+                                               const RunContext& context);
+
+/// The edge in which a plane meets the circular cylinder or cone along some consecutive sides of a missing
+/// face, from the end of the last side to the start of the first one. The face does not run round the axis.
+/// @param sides  the places of each side, both ends included. Sides that are arcs about the axis or straight
+///               determine the axis.
+/// @return  empty if the sides are not on one such surface, or if the edge would be straight.
+std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, const geometry::Plane& plane);
 
 /// Fill a rim with a face on the circular cylinder or cone through the rim, unless the rim runs round the
-/// axis of that surface. The surface is found from an edge of the rim that is an arc about its axis. The
-/// facets are made on the unrolled surface.
+/// axis of that surface. The surface is found from an edge of the rim that is an arc about its axis, or from
+/// a straight edge along the axis of a cylinder. The facets are made on the unrolled surface.
 /// @return  empty if the rim lies on no such surface.
 std::optional<VoidFilling> fill_round_patch(const topology::Model& model, const topology::Loop& loop,
                                             const RunContext& context);

@@ -26,8 +26,9 @@ bool tells_face(const topology::Model& model, const topology::Loop& loop, const 
 /// Split a free loop that runs around two or three adjacent missing faces into the loops of these faces.
 ///
 /// Two faces: one is flat; the other is flat too, or its rim determines its shape. The void edge between them
-/// is straight, or a shifted copy of the opposite side of the second face. Three faces: all are flat and meet
-/// in a void vertex, or one is flat and the other two are as in the case of two faces.
+/// is straight, or a shifted copy of the opposite side of the second face, or the edge in which the plane
+/// meets the round wall of the second face (`edge_in_plane()`). Three faces: all are flat and meet in a void
+/// vertex, or one is flat and the other two are as in the case of two faces.
 /// @param rim  a loop that is not flat.
 /// @return  the loops; their void edges, and the void vertex if there is one, are added to the model. Empty
 ///         if no split fits, or more than one.
