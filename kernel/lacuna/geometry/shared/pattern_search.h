@@ -43,7 +43,9 @@ template <class Value>
 double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value,
                       std::span<const Vec2> directions = all_around())
 {
-    for (double step = steps.longest * steps.scale; step >= steps.shortest * steps.scale; step /= 2) {
+    // Halving the share ends for a scale of 0 too, as where two points coincide.
+    for (double share = steps.longest; share >= steps.shortest; share /= 2) {
+        const double step = share * steps.scale;
         bool better = true;
         // The limit is needed because values may increase by rounding alone.
         for (int round = 0; better && round < kMostRounds; ++round) {
@@ -51,7 +53,7 @@ double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Val
             const Vec2 from = x;
             for (const Vec2& direction : directions) {
                 const Vec2 to = from + step * direction;
-                const double floor = best + steps.least_gain * step / steps.scale;
+                const double floor = best + steps.least_gain * share;
                 const double found = value(to, floor);
                 if (found <= floor) continue;
                 best = found;
