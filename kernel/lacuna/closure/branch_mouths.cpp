@@ -198,6 +198,8 @@ private:
         // there; the line is not a mouth.
         const std::vector<Vec3>& ends = result_.ends[mouth.host];
         const Vec3 way = ends.back() - ends.front();
+        // A smooth ring may also be a shoulder of the main body. Without its axis this is not decided.
+        if (ends.size() != 2 && !mouth.beyond.empty()) return false;
         if (ends.size() == 2 && way.cross(normal).norm() < kAlongAxis * way.norm()) return false;
         if (!result_.ends[mouth.branch].empty()) return true;
         // A shallow dimple counts as part of the wall.
