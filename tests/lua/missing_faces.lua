@@ -161,6 +161,12 @@ for what, case in pairs {
       .. "BooleanUnion(3)={Volume{1};Delete;}{Volume{2};Delete;}; Cylinder(4)={0,0,-1,0,0,9,0.5};"
       .. "BooleanDifference{Volume{3};Delete;}{Volume{4};Delete;}",
     { { 1.75, 0, 1.5 }, { 2, 0, 0 }, { 1, 0, 4 } } },
+  ["side and base of a loft from a square to a circle"] = { "Point(1)={-2,-2,0}; Point(2)={2,-2,0};"
+      .. "Point(3)={2,2,0}; Point(4)={-2,2,0}; Point(5)={-1,-1,4}; Point(6)={1,-1,4}; Point(7)={1,1,4};"
+      .. "Point(8)={-1,1,4}; Point(9)={0,0,4}; Line(1)={1,2}; Line(2)={2,3}; Line(3)={3,4}; Line(4)={4,1};"
+      .. "Circle(5)={5,9,6}; Circle(6)={6,9,7}; Circle(7)={7,9,8}; Circle(8)={8,9,5};"
+      .. "Curve Loop(1)={1,2,3,4}; Curve Loop(2)={5,6,7,8}; Ruled ThruSections(1)={1,2};",
+    { { 1.7, 0, 2 }, { 0, 0, 0 } } },
   ["hollow side and both ends of a prism"] = { "Point(1)={0,0,0}; Point(2)={3,0,0}; Point(3)={0,3,0};"
       .. "Point(4)={4,4,0}; Line(1)={1,2}; Circle(2)={2,4,3}; Line(3)={3,1}; Curve Loop(1)={1,2,3};"
       .. "Plane Surface(1)={1}; Extrude{0,0,2}{Surface{1};}", { { 1, 1, 0 }, { 1, 1, 2 }, { 1.1, 1.1, 1 } } },

@@ -548,7 +548,8 @@ bool is_bent_ring(const Model& model, FaceId face)
 std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, const geometry::Plane& plane)
 {
     const std::optional<RoundWall> wall = wall_along(sides);
-    if (!wall) return {};
+    // Straight sides that meet in the apex of a cone also bound lofts, which can end in a straight edge.
+    if (!wall || std::abs(wall->slope) > kVisible) return {};
     double turn = 0;
     for (const std::vector<Vec3>& side : sides)
         for (std::size_t i = 1; i < side.size(); ++i)
@@ -560,13 +561,10 @@ std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, con
     for (int k = 1; k < count; ++k) {
         const double angle = first - turn * k / count;
         const Vec2 out(std::cos(angle), std::sin(angle));
-        // The place (radius + slope h) out + h axis is in the plane; linear in h.
-        const double across = (geometry::from_plane(wall->base, out) - wall->base.origin).dot(plane.normal);
-        const double along = wall->base.normal.dot(plane.normal) + wall->slope * across;
+        const Vec3 low = geometry::from_plane(wall->base, wall->radius * out);
+        const double along = wall->base.normal.dot(plane.normal);
         if (std::abs(along) <= kParallel) return {};
-        const double h = -(geometry::height(plane, wall->base.origin) + wall->radius * across) / along;
-        if (!(wall->radius_at(h) > 0)) return {};
-        edge.push_back(geometry::from_plane(wall->base, wall->radius_at(h) * out, h));
+        edge.push_back(low - geometry::height(plane, low) / along * wall->base.normal);
     }
     edge.push_back(end);
     return edge.size() > 2 ? edge : std::vector<Vec3>();

@@ -60,7 +60,7 @@ bool is_bent_ring(const topology::Model& model, FaceId face);
 std::vector<topology::Loop> add_straight_walls(FlatFilling& filling, std::vector<topology::Loop> loops,
                                                const RunContext& context);
 
-/// The edge in which a plane meets the circular cylinder or cone along some consecutive sides of a missing
+/// The edge in which a plane meets the circular cylinder along some consecutive sides of a missing
 /// face, from the end of the last side to the start of the first one. The face does not run round the axis.
 /// @param sides  the places of each side, both ends included. Sides that are arcs about the axis or straight
 ///               determine the axis.
