@@ -10,6 +10,7 @@
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -129,17 +130,14 @@ private:
     [[nodiscard]] double mean_bend(FaceId wall, bool faces_void, const Mouth& mouth) const
     {
         const geometry::FacetTree facets(model_.points, model_[wall].triangles);
-        const std::vector<Vec3> far = places(model_, mouth.beyond);
+        const std::vector<Vec3> near = places(model_, mouth.edges), far = places(model_, mouth.beyond);
         double sum = 0;
-        const std::vector<Vec3> near = places(model_, mouth.edges);
         for (const Vec3& p : near) {
             const Triangle& t = model_[wall].triangles[facets.closest(p).triangle];
-            const Vec3 normal = (model_.at(t[1]) - model_.at(t[0]))
-                                    .cross(model_.at(t[2]) - model_.at(t[0]))
-                                    .stableNormalized();
-            const Vec3 way =
-                (*std::ranges::min_element(far, {}, [&](const Vec3& q) { return (q - p).squaredNorm(); }) - p)
-                    .stableNormalized();
+            const Vec3 normal = facet_area_vector(model_, t).stableNormalized();
+            const Vec3 to = *std::ranges::min_element(far, {},
+                                                      [&](const Vec3& q) { return (q - p).squaredNorm(); });
+            const Vec3 way = (to - p).stableNormalized();
             // The chord of an arc leaves its tangent by half the angle of the arc.
             sum -= 2 * std::asin(std::clamp(normal.dot(way), -1.0, 1.0));
         }

@@ -73,7 +73,7 @@ public:
             high = std::max(high, reach(*mouths[count]).high);
         mouths.resize(count);
         for (const Mouth* mouth : mouths)
-            if (mouth->beyond.empty()) refuse_beyond(*mouth);
+            if (mouth->beyond.empty()) refuse_beyond(*mouth); // a fillet faces the main body in any case
         if (count == 1 && found_.ends[mouths.front()->branch].size() < 2) {
             const std::vector<double> heights = sides_across(*mouths.front());
             if (!heights.empty()) return part_at(heights);

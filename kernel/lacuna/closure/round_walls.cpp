@@ -59,13 +59,20 @@ double angle_at(const geometry::Plane& base, const Vec3& place)
 /// The angle from `a` to `b`, in (-π, π].
 double turn_between(double a, double b) { return std::remainder(b - a, 2 * std::numbers::pi); }
 
+/// The turn of an open chain round the axis.
+double turn_along(const geometry::Plane& base, const std::vector<Vec3>& places)
+{
+    double sum = 0;
+    for (std::size_t i = 1; i < places.size(); ++i)
+        sum += turn_between(angle_at(base, places[i - 1]), angle_at(base, places[i]));
+    return sum;
+}
+
 /// The turn of a closed chain round the axis: ±2π if the chain runs round the axis once.
 double turn_round(const geometry::Plane& base, const std::vector<Vec3>& places)
 {
-    double sum = 0;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        sum += turn_between(angle_at(base, places[i]), angle_at(base, places[(i + 1) % places.size()]));
-    return sum;
+    return turn_along(base, places) +
+           turn_between(angle_at(base, places.back()), angle_at(base, places.front()));
 }
 
 double distance_to_axis(const geometry::Plane& base, const Vec3& place)
@@ -550,10 +557,10 @@ std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, con
     const std::optional<RoundWall> wall = wall_along(sides);
     // Straight sides that meet in the apex of a cone also bound lofts, which can end in a straight edge.
     if (!wall || std::abs(wall->slope) > kVisible) return {};
+    const double slope = wall->base.normal.dot(plane.normal);
+    if (std::abs(slope) <= kParallel) return {};
     double turn = 0;
-    for (const std::vector<Vec3>& side : sides)
-        for (std::size_t i = 1; i < side.size(); ++i)
-            turn += turn_between(angle_at(wall->base, side[i - 1]), angle_at(wall->base, side[i]));
+    for (const std::vector<Vec3>& side : sides) turn += turn_along(wall->base, side);
     const Vec3 &start = sides.back().back(), &end = sides.front().front();
     const double first = angle_at(wall->base, start);
     const auto count = static_cast<int>(std::ceil(std::abs(turn) * wall->radius / wall->step - kVisible));
@@ -562,9 +569,7 @@ std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, con
         const double angle = first - turn * k / count;
         const Vec2 out(std::cos(angle), std::sin(angle));
         const Vec3 low = geometry::from_plane(wall->base, wall->radius * out);
-        const double along = wall->base.normal.dot(plane.normal);
-        if (std::abs(along) <= kParallel) return {};
-        edge.push_back(low - geometry::height(plane, low) / along * wall->base.normal);
+        edge.push_back(low - geometry::height(plane, low) / slope * wall->base.normal);
     }
     edge.push_back(end);
     return edge.size() > 2 ? edge : std::vector<Vec3>();

@@ -33,11 +33,12 @@ std::vector<FaceId> given_beside(const Model& model, const Loop& loop)
     return beside;
 }
 
-/// Whether the given faces at a rim are parallel to the direction `way`. If they are inclined, a missing wall
-/// may be inclined as well.
+/// Whether there are given faces at a rim, and all are parallel to the direction `way`. If they are inclined,
+/// a missing wall may be inclined as well.
 bool is_square_to_walls(const Model& model, const Loop& loop, const Vec3& way)
 {
-    return std::ranges::all_of(given_beside(model, loop), [&](FaceId face) {
+    const std::vector<FaceId> beside = given_beside(model, loop);
+    return !beside.empty() && std::ranges::all_of(beside, [&](FaceId face) {
         return std::ranges::all_of(facet_normals(model, face).normals,
                                    [&](const Vec3& n) { return std::abs(n.dot(way)) <= kParallel; });
     });

@@ -138,50 +138,51 @@ public:
         return found.empty() ? with_round_edge(loop) : found;
     }
 
+    /// Visit both parts of a loop for every two vertices at which it may be split, in either order.
+    template <class Visit>
+    void each_split(const FaceChain& loop, const Visit& visit) const
+    {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            check_cancelled(context_);
+            for (std::size_t j = 0; j < loop.size(); ++j)
+                if (i != j) visit(part_of(loop, i, j), part_of(loop, j, i), i > j);
+        }
+    }
+
     [[nodiscard]] std::vector<FaceSplit> with_copied_edge(const FaceChain& loop) const
     {
         std::vector<FaceSplit> found;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            check_cancelled(context_);
-            for (std::size_t j = 0; j < loop.size(); ++j) {
-                if (i == j) continue;
-                const FaceChain flat = part_of(loop, i, j), rest = part_of(loop, j, i);
-                const bool flat_there = plane_of_run(flat).has_value();
-                const bool both = flat_there && plane_of_run(rest);
-                if (both && i > j) continue; // the split is found a second time with the two parts exchanged
-                const bool told = flat_there && (count_turns(points_along(flat)) > 1 ||
-                                                 (both && count_turns(points_along(rest)) > 1));
-                const FaceSide chord = across(rest);
-                const auto image = both ? std::nullopt : image_of_opposite(rest);
-                if (image && tells_face(closed(rest, *image)) && tells_face(closed(flat, turned(*image))))
-                    add(found, {closed(flat, turned(*image)), closed(rest, *image)});
-                else if ((told || (both && loop.size() == 4)) &&
-                         fits(chord, {start_of(flat), end_of(flat), start_of(rest), end_of(rest)}) &&
-                         (both || tells_face(closed(rest, chord))))
-                    add(found, {closed(flat, turned(chord)), closed(rest, chord)});
-            }
-        }
+        each_split(loop, [&](const FaceChain& flat, const FaceChain& rest, bool again) {
+            const bool flat_there = plane_of_run(flat).has_value();
+            const bool both = flat_there && plane_of_run(rest);
+            if (both && again) return; // this split was found with the two parts exchanged
+            const bool told = flat_there && (count_turns(points_along(flat)) > 1 ||
+                                             (both && count_turns(points_along(rest)) > 1));
+            const FaceSide chord = across(rest);
+            const auto image = both ? std::nullopt : image_of_opposite(rest);
+            if (image && tells_face(closed(rest, *image)) && tells_face(closed(flat, turned(*image))))
+                add(found, {closed(flat, turned(*image)), closed(rest, *image)});
+            else if ((told || (both && loop.size() == 4)) &&
+                     fits(chord, {start_of(flat), end_of(flat), start_of(rest), end_of(rest)}) &&
+                     (both || tells_face(closed(rest, chord))))
+                add(found, {closed(flat, turned(chord)), closed(rest, chord)});
+        });
         return found;
     }
 
     [[nodiscard]] std::vector<FaceSplit> with_round_edge(const FaceChain& loop) const
     {
         std::vector<FaceSplit> found;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            check_cancelled(context_);
-            for (std::size_t j = 0; j < loop.size(); ++j) {
-                if (i == j) continue;
-                const FaceChain flat = part_of(loop, i, j), rest = part_of(loop, j, i);
-                const auto plane = plane_of_run(flat);
-                if (!plane || count_turns(points_along(flat)) < 2) continue;
-                std::vector<std::vector<Vec3>> sides;
-                for (const FaceSide& side : rest) sides.push_back(side.points);
-                FaceSide edge{edge_in_plane(sides, *plane), {}, rest.back().to, rest.front().from};
-                if (edge.points.empty() || is_known(edge)) continue;
-                if (plane_of_run(closed(flat, turned(edge))) && tells_face(closed(rest, edge)))
-                    add(found, {closed(flat, turned(edge)), closed(rest, edge)});
-            }
-        }
+        each_split(loop, [&](const FaceChain& flat, const FaceChain& rest, bool) {
+            const auto plane = plane_of_run(flat);
+            if (!plane || count_turns(points_along(flat)) < 2) return;
+            std::vector<std::vector<Vec3>> sides;
+            for (const FaceSide& side : rest) sides.push_back(side.points);
+            const FaceSide edge{edge_in_plane(sides, *plane), {}, rest.back().to, rest.front().from};
+            if (edge.points.empty() || is_known(edge)) return;
+            if (plane_of_run(closed(flat, turned(edge))) && tells_face(closed(rest, edge)))
+                add(found, {closed(flat, turned(edge)), closed(rest, edge)});
+        });
         return found;
     }
 

@@ -8,6 +8,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/incidence.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/healing/detail/facet_normals.h>
@@ -93,7 +94,6 @@ void straighten_borders(const Facets& facets, const FacetSides& sides, std::vect
     // A side more in the other face weighs as much as normals whose cosines differ by kSideWeight. With 0.5,
     // rims of saw cuts are off by a facet at noise of 20 % of the sides, with 1 at noise of 10 %.
     constexpr double kSideWeight = 0.7;
-    constexpr int kMostPasses = 10;
     const Incidence at_point = incidence(facets.points.size(), [&](const auto& visit) {
         for (Index f = 0; index(f) < facets.count(); ++f)
             for (const Index p : facets.corner[index(f)]) visit(index(p), f);
@@ -117,7 +117,7 @@ void straighten_borders(const Facets& facets, const FacetSides& sides, std::vect
         }
         own.push_back(area.stableNormalized());
     }
-    for (int pass = 0; pass < kMostPasses; ++pass) {
+    for (int pass = 0; pass < kMostRounds; ++pass) {
         check_cancelled(context);
         bool any = false;
         for (Index f = 0; index(f) < facets.count(); ++f) {

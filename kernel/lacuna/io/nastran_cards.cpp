@@ -9,8 +9,8 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kFields = kCardColumns / kCardField -
-                                2; // data fields of a line; large ones take two lines
+/// Data fields of a line; large ones take two lines.
+constexpr std::size_t kFields = kCardColumns / kCardField - 2;
 /// Number of cards that replication may create, in addition to one card for each sixteen bytes of the file.
 /// Without a limit, a wrong count would fill the memory. Not measured.
 constexpr std::size_t kReplicas = 10'000;

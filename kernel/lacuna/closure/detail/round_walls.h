@@ -60,11 +60,12 @@ bool is_bent_ring(const topology::Model& model, FaceId face);
 std::vector<topology::Loop> add_straight_walls(FlatFilling& filling, std::vector<topology::Loop> loops,
                                                const RunContext& context);
 
-/// The edge in which a plane meets the circular cylinder along some consecutive sides of a missing
-/// face, from the end of the last side to the start of the first one. The face does not run round the axis.
+/// The edge in which a plane meets the circular cylinder along some consecutive sides of a missing face, from
+/// the end of the last side to the start of the first one. The face does not run round the axis.
 /// @param sides  the places of each side, both ends included. Sides that are arcs about the axis or straight
 ///               determine the axis.
-/// @return  empty if the sides are not on one such surface, or if the edge would be straight.
+/// @return  empty if the sides are not on one cylinder, if the plane is parallel to its axis, or if the edge
+///          would be straight.
 std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, const geometry::Plane& plane);
 
 /// Fill a rim with a face on the circular cylinder or cone through the rim, unless the rim runs round the

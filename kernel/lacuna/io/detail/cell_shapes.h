@@ -45,9 +45,8 @@ inline const ShapeWords& words_of(DeckShape shape) { return kShapeWords[static_c
 /// The shape with a given number (above 0) in a format; empty: no shape has it.
 inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int64_t number)
 {
-    for (std::size_t s = mesh::kCellShapes;
-         s-- > 0;) // backwards: a brick comes before the pyramid that is written
-                   // as one
+    // Backwards: a brick comes before the pyramid that is written as one.
+    for (std::size_t s = mesh::kCellShapes; s-- > 0;)
         if (number > 0 && kShapeWords[s].*format == number) return static_cast<DeckShape>(s);
     return {};
 }
