@@ -84,6 +84,17 @@ do
   check.that(said(disc():sweep { layers = 1, size = 0.1, rows = 3 }, "3 rows"))
 end
 
+-- Rings are meshed in rows around the hole by default, at least three, however thin they are.
+for _, inner in ipairs { 0.4, 0.6, 0.8, 0.9, 0.99, 0.999 } do
+  local mesh = lacuna.synthetic.annulus { inner = inner, height = 0.5, facets = 120 }:open_volume {
+    source = "source", target = "target", walls = "auto" }:sweep { layers = 1 }
+  check.that(said(mesh, "rings"))
+  check.that(mesh:quality().min_scaled_jacobian > 0.95, "a ring of rows")
+  local radii = {}
+  for _, depth in ipairs(depths(mesh)) do radii[math.floor(4 * depth / (1 - inner) + 0.5)] = true end
+  check.that(radii[0] and radii[1] and radii[3] and radii[4], "fewer than three rows")
+end
+
 check.fails(function() disc():sweep { layers = 1, size = 0.1, rows = 0 } end, "rows")
 check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = -1 } end, "row_height")
 check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = function() return 0 end } end,

@@ -159,6 +159,7 @@ struct FacePattern {
     int steps = 0; ///< number of rows by which the outer loop of a ring steps inward where the ring is narrow
     int corners = 0; ///< number of nodes at which rows of a ring change their number of sides
     TurnStyle style = TurnStyle::soft;
+    int across = 0; ///< number of rows between the loops of a ring; 0: as many as the size gives
 };
 
 /// If quads fold, move each inner node to the mean of its neighbours a few times. Keep the result if the
@@ -213,6 +214,8 @@ public:
         if (!grid.enclose(grid_)) return std::nullopt;
         PlanarQuads mesh{std::move(points_), std::move(quads_), words()};
         grid.add_cells(mesh);
+        // The nodes of a narrow ring lie evenly on lines between its loops; smoothing is for square quads.
+        if (pattern_.across > 0) return mesh;
         spread_folds(mesh, region_.points.size());
         return smoothed(std::move(mesh), region_, size_, context);
     }
@@ -314,7 +317,9 @@ private:
             move(grid_[l], 0, 0, period_);
         }
         const Spokes spokes(points_, grid_[0], grid_[pattern_.about], period_);
-        const int rows = spokes.rows(size_);
+        const int by_size = spokes.rows(size_);
+        if (pattern_.across > 0 && by_size >= pattern_.across) return false;
+        const int rows = std::max(by_size, pattern_.across);
         move(grid_[pattern_.about], spokes.shift(), rows, period_);
         for (std::size_t l = 1; l < loops_.size(); ++l) {
             if (l != pattern_.about && !place_beside(l, spokes, rows)) return false;
@@ -557,6 +562,19 @@ std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunCont
     PatternTrial trial(region, context);
     trial.run();
     return trial.take();
+}
+
+std::optional<PlanarQuads> fill_narrow_ring(const PlanarRegion& region, int rows, const RunContext& context)
+{
+    if (region.loops.size() != 2) return std::nullopt;
+    FacePattern pattern{.about = 1};
+    pattern.across = rows;
+    const paving::BoundarySizes sizes = paving::sizes_with_boundary(region);
+    auto mesh = PatternFiller(region, pattern, sizes.ring).run(context);
+    if (mesh &&
+        (least_scaled_jacobian(mesh->points, mesh->quads) < kPoorQuad || !find_fault(*mesh, region).empty()))
+        return std::nullopt;
+    return mesh;
 }
 
 } // namespace lacuna::quads

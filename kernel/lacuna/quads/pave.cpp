@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/geometry/shared/triangulate.h>
+#include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/mesh_symmetry.h>
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_rows.h>
@@ -117,6 +118,12 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
                                    found(options.exact_rows))
                                .remedy("give a 'row_height', or exact_rows = 0"));
     if (options.exact_rows > 0) return pave_inside_rows(region, options, context);
+    if (options.across > 0) {
+        if (auto ring = fill_narrow_ring(region, options.across, context)) {
+            PaveReport report{ring->how};
+            return {std::move(*ring), std::move(report)};
+        }
+    }
     AttemptChooser chooser(region, options, context);
     chooser.run();
     Attempt best = chooser.take_best();

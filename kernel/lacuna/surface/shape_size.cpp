@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/facet_curvature.h>
@@ -248,6 +249,34 @@ bool is_mapped(const Model& model, FaceId face)
     return corners && alike(model, side_pairs(model, face, *corners));
 }
 
+/// Whether rows of quads around a face fill it: its two loops have no corners, and their distance varies less
+/// than the accepted lengths of sides do.
+bool is_ring(const Model& model, FaceId face)
+{
+    const std::vector<Loop>& loops = model[face].loops;
+    if (loops.size() != 2) return false;
+    for (const Loop& loop : loops) {
+        for (std::size_t i = 0; i < loop.uses.size(); ++i) {
+            const double angle = inner_angle(model, face, loop, i);
+            if (angle < kCornerBelow || angle > kReversalAbove) return false;
+        }
+    }
+    double least = kInfinity, most = 0;
+    for (const std::size_t l : {0, 1}) {
+        const std::vector<Index> facing = loop_points(model, loops[1 - l].uses);
+        std::vector<Triangle> pieces;
+        for (std::size_t i = 0; i < facing.size(); ++i)
+            pieces.push_back({facing[i], facing[(i + 1) % facing.size()], facing[i]});
+        const geometry::FacetTree tree(model.points, pieces);
+        for (const Index p : loop_points(model, loops[l].uses)) {
+            const double width = std::sqrt(tree.closest(model.at(p)).distance2);
+            least = std::min(least, width);
+            most = std::max(most, width);
+        }
+    }
+    return least > 0 && most * quads::kShortestOfSize <= least * quads::kLongestOfSize;
+}
+
 } // namespace
 
 void add_width_sizes(const Model& model, FaceId face, const SizeField& asked, const ShapeSizing& sizing,
@@ -264,6 +293,7 @@ ShapeSize shape_size(const OpenVolume& volume, const SizeField& asked, const Sha
     for (const FaceId face : volume.faces(Role::source)) {
         if (sizing.curvature > 0)
             add_curvature(volume.model, face, asked, sizing.curvature, sizes, result.curvature);
+        if (sizing.counts_across && is_ring(volume.model, face)) continue;
         ShapeSizing own = sizing;
         if (sizing.counts_across && is_mapped(volume.model, face)) own.gap = 0;
         Width(volume.model, face).add(asked, own, sizes, result.width);

@@ -100,7 +100,7 @@ ShellQuads shell_quads(const Model& model, const SweepOptions& options, const Ru
     const surface::Seeds seeds = surface::seed_source(faces, {}, sizes.shape.at, style_of(options, false),
                                                       sizes.sizing, {}, true, {}, context);
     const surface::SourceMesh source = surface::mesh_source(faces, {}, seeds, {sizes.shape.at},
-                                                            mesher_of(options, sizes.narrow), context);
+                                                            mesher_of(options, sizes), context);
     ShellQuads shell;
     shell.nodes = source.quads.nodes;
     if (sizes.by_default)

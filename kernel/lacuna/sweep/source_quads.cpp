@@ -119,7 +119,7 @@ surface::QuadStyle style_of(const SweepOptions& options, bool rows_along_walls)
     return chooses ? surface::QuadStyle::automatic : surface::QuadStyle::free;
 }
 
-quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)
+quads::PlanarQuadMesher mesher_of(const SweepOptions& options, const SourceSize& size)
 {
     if (options.quads == Quads::gmsh) return options.quad_mesher;
     if (options.quads == Quads::mapped) {
@@ -134,15 +134,16 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)
         };
     }
     // A grid cannot add quads across a neck: their number follows from the rim.
-    const bool grids = options.quads != Quads::paved && !narrow;
-    return [rows = options.rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
-        return quads::pave(region, {.exact_rows = rows, .grids = grids}, context).mesh;
+    const bool grids = options.quads != Quads::paved && !size.narrow;
+    return [pave = quads::PaveOptions{options.rows, grids, size.across}](const quads::PlanarRegion& region,
+                                                                         const RunContext& context) {
+        return quads::pave(region, pave, context).mesh;
     };
 }
 
-quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow)
+quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, const SourceSize& size)
 {
-    quads::PlanarQuadMesher mesher = mesher_of(options, narrow);
+    quads::PlanarQuadMesher mesher = mesher_of(options, size);
     if (!options.wedges || !mesher) return mesher;
     return [mesher = std::move(mesher)](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::fill_odd_region(region, mesher, context);
@@ -155,6 +156,7 @@ void reduce_by_shape(const OpenVolume& volume, const SweepOptions& options, Sour
     const bool gap_by_default = size.by_default && options.gap == 0;
     size.sizing = gap_by_default ? surface::ShapeSizing{options.curvature, kDefaultGap, maps}
                                  : surface::ShapeSizing{options.curvature, options.gap};
+    size.across = size.sizing.counts_across ? size.sizing.gap : 0;
     size.shape = surface::shape_size(volume, size.asked, size.sizing);
     // If narrow places would cause very many source quads by default, they stay coarse.
     if (gap_by_default && size.shape.width &&

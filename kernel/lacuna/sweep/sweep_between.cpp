@@ -269,13 +269,13 @@ private:
         std::optional<Background<std::vector<surface::WallMesh>>> walls_to_be;
         if (walls_beside(*split_, *seeds_, rim, planned_.heights)) walls_to_be.emplace(context_, mesh_walls);
         source_ = surface::mesh_source(*split_, links, *seeds_, size_fields(size_, options_),
-                                       mesher_for_all(options_, sizes_.narrow), context_);
+                                       mesher_for_all(options_, sizes_), context_);
         report_progress(context_, "walls", share::walls);
         walls_ = walls_to_be ? walls_to_be->take() : mesh_walls(context_);
         columns_ = columns_of(links, source_, planned_.heights, walls_);
         if (outline == Outline::mean && !options_.wedges)
             source_ = laid_between(*split_, std::move(source_), columns_, size_,
-                                   mesher_of(options_, sizes_.narrow), context_);
+                                   mesher_of(options_, sizes_), context_);
         for (std::string& note : source_.notes) result_.report.push_back("source " + note);
         for (const surface::WallMesh& wall : walls_) {
             for (const std::string& note : wall.notes) result_.report.push_back("walls: " + note);

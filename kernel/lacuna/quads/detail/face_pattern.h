@@ -4,6 +4,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/quads/region.h>
 
+#include <optional>
 #include <vector>
 
 namespace lacuna::quads {
@@ -45,5 +46,12 @@ namespace lacuna::quads {
 /// @pre   loops as `pave()` requires them.
 /// @note  Deterministic. O(quads), plus O(outer nodes × hole nodes), for each grid that is tried.
 std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunContext& context = {});
+
+/// Fill a narrow ring with rows around its hole, if the size gives fewer rows than requested. The quads are
+/// longer than wide.
+/// @param rows  number of rows between the loops, >= 1.
+/// @return  empty if the region is not a ring whose loops have equal numbers of sides, if its size gives as
+///         many rows anyway, or if some quad would be poor.
+std::optional<PlanarQuads> fill_narrow_ring(const PlanarRegion& region, int rows, const RunContext& context);
 
 } // namespace lacuna::quads

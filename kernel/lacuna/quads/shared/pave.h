@@ -20,6 +20,8 @@ struct PaveOptions {
     /// reports this. Other rows are placed where the region's shape requires them, and may move.
     int exact_rows = 0;
     bool grids = true; ///< whether a single (submapped or bent) grid may fill the region
+    /// Minimum number of rows around a ring whose loops have equal numbers of sides, >= 0; 0: by the size.
+    int across = 0;
 };
 
 /// The mesh of `pave()` and how it was made.

@@ -12,9 +12,10 @@ namespace lacuna::surface {
 struct ShapeSizing {
     int curvature = 12; ///< sides for a full turn of an edge or a surface, >= 0; 0: the size alone
     int gap = 0;        ///< minimum number of quads across a narrow place, >= 0; 0: no minimum
-    /// How the minimum `gap` is reached on four-sided faces. True: mapped faces get at least `gap` quads
-    /// between opposite sides, and the size is not reduced there; rectilinear faces may be submapped. False:
-    /// the size is reduced; rectilinear faces are submapped only on request.
+    /// How the minimum `gap` is reached on four-sided faces and on rings of even width without corners. True:
+    /// mapped faces get at least `gap` quads between opposite sides, rings get as many rows, and the size is
+    /// not reduced there; rectilinear faces may be submapped. False: the size is reduced; rectilinear faces
+    /// are submapped only on request.
     bool counts_across = false;
 };
 

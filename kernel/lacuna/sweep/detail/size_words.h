@@ -31,6 +31,7 @@ struct SourceSize {
     std::optional<surface::SizeCause> too_narrow;
     std::function<int(int least)> layers{}; ///< number of layers as in `VolumePlan`
     bool narrow = false;                    ///< there are, or may be, narrow places
+    int across = 0;                         ///< minimum number of rows around a ring; 0: by the size
     ExpectedCells expected{};
 };
 

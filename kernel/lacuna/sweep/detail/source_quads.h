@@ -15,11 +15,12 @@ namespace lacuna::sweep {
 surface::QuadStyle style_of(const SweepOptions& options, bool rows_along_walls);
 
 /// The mesher for source faces that are not mapped: the kernel's paver, or the given mesher.
-/// @param narrow  whether some narrow places may need a minimum number of quads across.
-quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
+/// @param size  gives the minimum number of rows around rings, and whether other narrow places may need a
+///         minimum number of quads across.
+quads::PlanarQuadMesher mesher_of(const SweepOptions& options, const SourceSize& size);
 
 /// As `mesher_of()`, for regions that may have an odd number of sides.
-quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
+quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, const SourceSize& size);
 
 /// Reduce the requested or default size of a source where its faces are curved or narrow. The default number
 /// of quads across narrow places is dropped if it would give too many quads.
