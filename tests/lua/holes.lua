@@ -454,4 +454,26 @@ end
 -- So rough that it is no rim of a plane, or so low that the rim matters.
 check.fails(function() bone(1, 48, 0.5, 0.12, true):close() end, "closure.shape_open")
 
+-- --- equal circles of two parts ----------------------------------------------------------------------------
+
+-- The gap under and round a bush in a stepped bore: flat faces in the two equal circles would fill the bore.
+for _, gap in ipairs { 1, 3 } do
+  for _, bore in ipairs { 10, 20 } do
+    local file = ("%s/bush_%g_%g.geo"):format(folder, gap, bore)
+    check.write(file, ([[SetFactory("OpenCASCADE");
+Cylinder(1) = {0,0,-4, 0,0,16, 34}; Cylinder(2) = {0,0,-4, 0,0,4, %g}; Cylinder(3) = {0,0,0, 0,0,12, 30};
+BooleanDifference(4) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };
+Cylinder(5) = {0,0,%g, 0,0,%g, 26}; Cylinder(6) = {0,0,%g, 0,0,%g, %g};
+BooleanDifference(7) = { Volume{5}; Delete; }{ Volume{6}; Delete; };
+]]):format(bore, gap, 12 - gap, gap, 12 - gap, bore))
+    local model = lacuna.load(file)
+    local function face(near) return { near = near } end
+    local void = model:open_volume { faces = { face { 30, 0, 6 }, face { 28, 0, 0 }, face { 26, 0, 6 },
+      face { (bore + 26) / 2, 0, gap } } }
+    local mesh = void:sweep { size = 2 }
+    local volume = math.pi * ((900 - 676) * 12 + (676 - bore ^ 2) * gap)
+    check.near(mesh:quality().volume, volume, 0.01 * volume)
+  end
+end
+
 check.done()
