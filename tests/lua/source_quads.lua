@@ -95,6 +95,30 @@ for _, inner in ipairs { 0.4, 0.6, 0.8, 0.9, 0.99, 0.999 } do
   check.that(radii[0] and radii[1] and radii[3] and radii[4], "fewer than three rows")
 end
 
+-- A tube of facets, which has no seam, gets a grid around it; sides follow the size however long it is.
+local function longest_side(mesh)
+  local longest = 0
+  for q = 1, mesh.hexes // mesh.layers do
+    local cell = { mesh:hex(q) }
+    for k = 1, 4 do
+      local a, b = { mesh:node(cell[k]) }, { mesh:node(cell[k % 4 + 1]) }
+      longest = math.max(longest, math.sqrt((a[1] - b[1]) ^ 2 + (a[2] - b[2]) ^ 2 + (a[3] - b[3]) ^ 2))
+    end
+  end
+  return longest
+end
+for _, tube in ipairs {
+  { lacuna.synthetic.annulus { inner = 10, outer = 14, height = 20, drop = { "source", "target" } }, 3 },
+  { lacuna.synthetic.annulus { inner = 10, outer = 14, height = 130, drop = { "source", "target" } }, 3 },
+  { lacuna.synthetic.elbow { inner = 0.6, angle = 60, drop = { "source", "target" } }, 0.2 },
+  { lacuna.synthetic.elbow { inner = 0.6, angle = 180, drop = { "source", "target" } }, 0.2 },
+} do
+  local mesh = tube[1]:open_volume { source = "wall_2", target = "wall_1" }:sweep { layers = 3, size = tube[2] }
+  check.that(said(mesh, "mapped"))
+  check.that(mesh:quality().min_scaled_jacobian > 0.8, "a grid round a tube")
+  check.that(longest_side(mesh) < 1.6 * tube[2], "longer than the size")
+end
+
 check.fails(function() disc():sweep { layers = 1, size = 0.1, rows = 0 } end, "rows")
 check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = -1 } end, "row_height")
 check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = function() return 0 end } end,

@@ -49,6 +49,16 @@ bool is_fairly_mapped(const SeedTask& task, FaceId face, const MappedFace& mappe
 void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
 {
     if (task.style == QuadStyle::free || seeds.kept.contains(face)) return;
+    if (is_tube(task.model, face)) {
+        SidePair loops;
+        for (const std::size_t l : {0, 1})
+            for (const EdgeUse& use : task.model[face].loops[l].uses) loops[l].push_back(use.edge);
+        const std::vector<SidePair> ends{loops};
+        if (!counts_alike(seeds, ends)) return;
+        grids.opposite[face] = ends;
+        seeds.tubes.insert(face);
+        return;
+    }
     const auto corners = four_corners(task.model, face);
     // A submapped face cannot be given a number of quads across its narrow places, because this number
     // follows from several sides.
@@ -130,6 +140,7 @@ void free_unequal(const SeedTask& task, FaceGrids& grids, Seeds& seeds)
         if (task.style == QuadStyle::mapped) refuse_counts(task.model, seeds, face, pairs);
         seeds.corners.erase(face);
         seeds.submapped.erase(face);
+        seeds.tubes.erase(face);
         grids.mapped.erase(face);
         return true;
     });

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/shared/submap.h>
+#include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
@@ -119,6 +120,18 @@ std::vector<std::vector<EdgeId>> sides_by_corners(const Model& model, FaceId fac
     for (std::size_t s = 0; corners && s < corners->size(); ++s)
         sides.push_back(side_edges(model[face].loops[0], *corners, s));
     return sides;
+}
+
+bool is_tube(const Model& model, FaceId face)
+{
+    if (model[face].loops.size() != 2 || border_loops(model, face).size() != 2 ||
+        euler_number(model, {face}) != 0)
+        return false;
+    const Vec3 normal = face_area_vector(model, face).stableNormalized();
+    return std::ranges::any_of(model[face].triangles, [&](const Triangle& t) {
+        const Vec3 area = facet_area_vector(model, t);
+        return area.dot(normal) < -kPoorQuad * area.norm();
+    });
 }
 
 } // namespace lacuna::surface

@@ -286,6 +286,12 @@ EdgeUse target_use(const LinkingSurface& link, const RimSegment& segment)
     return link.target.uses()[link.target.position(middle).use];
 }
 
+LinkingSurface tube_link(const OpenVolume& volume, FaceId face, const RunContext& context)
+{
+    const std::vector<Loop>& loops = volume.model[face].loops;
+    return make_link(volume, {face}, {against(loops[0].uses)}, {against(loops[1].uses)}, {}, {}, context);
+}
+
 std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning turning,
                                              std::span<const RimPair> pairs, const RunContext& context)
 {

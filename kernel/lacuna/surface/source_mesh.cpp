@@ -6,8 +6,10 @@
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/face_sides.h>
+#include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/shared/fill_face.h>
 #include <lacuna/surface/shared/projector.h>
+#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -50,6 +52,8 @@ public:
                 keep(face);
             else if (corners != seeds_.corners.end())
                 map(face, corners->second);
+            else if (seeds_.tubes.contains(face))
+                map_tube(face);
             else
                 fill(face);
             result_.quads.face.resize(result_.quads.quads.size(), static_cast<Index>(face.index()));
@@ -206,6 +210,71 @@ private:
             for (std::size_t i = 0; i < n; ++i)
                 result_.quads.quads.push_back(
                     {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+        }
+    }
+
+    /// The nodes of a closed chain of edges, and their running lengths.
+    struct ChainNodes {
+        std::vector<Index> nodes;
+        std::vector<double> at;
+    };
+
+    [[nodiscard]] ChainNodes nodes_of(const Chain& chain) const
+    {
+        ChainNodes result;
+        for (std::size_t u = 0; u < chain.uses().size(); ++u) {
+            const EdgeUse use = chain.uses()[u];
+            const std::vector<Index> nodes = nodes_along(use);
+            const std::vector<double> share = seeds_.fractions(use.edge);
+            const double length = chain.start(u + 1) - chain.start(u);
+            for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+                const double along = use.reversed ? 1 - share[share.size() - 1 - i] : share[i];
+                result.nodes.push_back(nodes[i]);
+                result.at.push_back(chain.start(u) + along * length);
+            }
+        }
+        return result;
+    }
+
+    /// Mesh a tube by a grid around it, as a wall between its two loops. The number of rows follows from the
+    /// mean size.
+    void map_tube(FaceId face)
+    {
+        const LinkingSurface link = tube_link(volume_, face, context_);
+        const ChainNodes low = nodes_of(link.source), high = nodes_of(link.target);
+        const std::size_t n = low.nodes.size();
+        const double length = link.target.length(), start = link.segments.front().target_from;
+        const auto first = std::ranges::min_element(
+            high.at, {}, [&](double at) { return std::abs(std::remainder(at - start, length)); });
+        std::vector<Index> top(high.nodes);
+        const auto begin = first - high.at.begin();
+        LinkingNodes rim{low.at, high.at, {}};
+        std::ranges::rotate(top, top.begin() + begin);
+        std::ranges::rotate(rim.target_at, rim.target_at.begin() + begin);
+        for (double& at : rim.target_at)
+            if (at < rim.target_at.front()) at += length;
+
+        double sides = 0, area = 0;
+        for (const Triangle& t : model_[face].triangles) {
+            const double own = facet_area_vector(model_, t).norm();
+            const Vec3 middle = (model_.at(t[0]) + model_.at(t[1]) + model_.at(t[2])) / 3;
+            sides += own / sizes_.edge(middle);
+            area += own;
+        }
+        const double rows = map_of(volume_, link, true, context_)->height() * sides / area;
+        const auto m = static_cast<std::size_t>(std::max(1.0, std::round(rows)));
+        std::vector<double> heights;
+        for (std::size_t k = 0; k <= m; ++k)
+            heights.push_back(static_cast<double>(k) / static_cast<double>(m));
+        const WallMesh grid = mesh_walls(volume_, {&link, 1}, {&rim, 1}, heights, {}, context_).front();
+        std::vector<Index> row = low.nodes, above;
+        for (std::size_t k = 1; k <= m; ++k, row = above) {
+            above = k == m ? top : std::vector<Index>();
+            for (std::size_t i = 0; i < n && k < m; ++i) above.push_back(add_node(grid.points[k * n + i]));
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::size_t next = (i + 1) % n;
+                result_.quads.quads.push_back({row[i], above[i], above[next], row[next]});
+            }
         }
     }
 

@@ -43,6 +43,10 @@ std::vector<SidePair> side_pairs(const topology::Model& model, FaceId face,
 /// loop does not turn by 360° in total.
 std::vector<SidePair> grid_sides(const topology::Model& model, FaceId face);
 
+/// Whether a face is a tube that is not cut open: it has two loops and no handle, and its facets face in all
+/// directions. Facets of files have no seam, unlike faces of CAD.
+bool is_tube(const topology::Model& model, FaceId face);
+
 /// Maximum ratio of the lengths, or of the numbers of quads, of opposite sides of a mapped face. If it is
 /// larger, the face is mapped only on request, because the lengths of its quads would have the same ratio.
 /// Heuristic.

@@ -87,4 +87,7 @@ std::vector<LinkingSurface> linking_surfaces(const topology::OpenVolume& volume,
                                              std::span<const RimPair> pairs = {},
                                              const RunContext& context = {});
 
+/// The linking surface of a face that is a tube (`is_tube()`), from its first loop to its second.
+LinkingSurface tube_link(const topology::OpenVolume& volume, FaceId face, const RunContext& context = {});
+
 } // namespace lacuna::surface

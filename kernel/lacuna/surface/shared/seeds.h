@@ -102,6 +102,7 @@ struct Seeds {
     /// For each mapped face: the indices of the four edge uses that start a side.
     std::map<FaceId, std::vector<std::size_t>> corners;
     std::set<FaceId> submapped;     ///< faces meshed as a grid of right angles
+    std::set<FaceId> tubes;         ///< faces meshed as a grid round a tube (`is_tube()`)
     std::set<FaceId> kept;          ///< faces whose own quads are kept
     RimRows rows;                   ///< rows of boundary layers along the rim
     std::vector<std::string> notes; ///< a line for each given mesh that is not kept

@@ -50,6 +50,7 @@ struct SourceMesh {
 ///
 /// - Kept faces have their given quads, every node bit for bit.
 /// - Mapped faces get a grid by transfinite interpolation in arc length, projected onto the face.
+/// - Tubes of facets have a grid by the harmonic map of a wall between their two loops (`mesh_walls()`).
 /// - Free and submapped faces are flattened, filled by `mesher`, and mapped back to the exact surface.
 ///
 /// Faces share nodes on common edges and vertices.
