@@ -267,15 +267,16 @@ private:
         for (std::size_t k = 0; k <= m; ++k)
             heights.push_back(static_cast<double>(k) / static_cast<double>(m));
         const WallMesh grid = mesh_walls(volume_, {&link, 1}, {&rim, 1}, heights, {}, context_).front();
-        std::vector<Index> row = low.nodes, above;
-        for (std::size_t k = 1; k <= m; ++k, row = above) {
-            above = k == m ? top : std::vector<Index>();
+        std::vector<std::vector<Index>> row{low.nodes};
+        for (std::size_t k = 1; k <= m; ++k) {
+            std::vector<Index>& above = row.emplace_back(k == m ? top : std::vector<Index>());
             for (std::size_t i = 0; i < n && k < m; ++i) above.push_back(add_node(grid.points[k * n + i]));
             for (std::size_t i = 0; i < n; ++i) {
                 const std::size_t next = (i + 1) % n;
-                result_.quads.quads.push_back({row[i], above[i], above[next], row[next]});
+                result_.quads.quads.push_back({row[k - 1][i], above[i], above[next], row[k - 1][next]});
             }
         }
+        if (volume_.faces(Role::source).size() == 1) result_.rows = std::move(row);
     }
 
     /// The boundary rows along a face's rim, for rim nodes in the order of `border_loops()`.

@@ -48,24 +48,39 @@ void put_rim(const RimColumns& columns, std::vector<Vec3>& nodes)
     for (std::size_t k = 0; k < high.size(); ++k) nodes[index(columns.rim[k])] = high[k];
 }
 
+/// Rows of nodes from rim to rim, see `morph()`.
+using Rows = std::span<const std::vector<Index>>;
+
 /// The source mapped by `base`. The difference between each mapped rim node and its required position is
-/// spread harmonically over the inside.
+/// spread harmonically over the inside, or linearly along the grid lines of a tube.
 std::vector<Vec3> image_by(const std::function<Vec3(const Vec3&)>& base, const mesh::QuadMesh& source,
-                           const RimColumns& columns, const AskSpreader& spreader, const RunContext& context)
+                           const RimColumns& columns, Rows rows, const AskSpreader& spreader,
+                           const RunContext& context)
 {
     std::vector<Vec3> nodes;
     for (const Vec3& node : source.nodes) nodes.push_back(base(node));
     const std::span<const Vec3> low = columns.row(0), high = columns.row(columns.layers);
     std::vector<Vec3> off(high.begin(), high.end());
     for (std::size_t k = 0; k < low.size(); ++k) off[k] -= base(low[k]);
-    spreader().spread.add(off, 1, nodes.data(), nodes.size(), context);
+    if (rows.empty()) {
+        spreader().spread.add(off, 1, nodes.data(), nodes.size(), context);
+    } else {
+        std::vector<Vec3> moved(nodes.size(), Vec3::Zero());
+        for (std::size_t k = 0; k < low.size(); ++k) moved[index(columns.rim[k])] = off[k];
+        for (std::size_t r = 1; r + 1 < rows.size(); ++r) {
+            const double up = static_cast<double>(r) / static_cast<double>(rows.size() - 1);
+            for (std::size_t i = 0; i < rows[r].size(); ++i)
+                nodes[index(rows[r][i])] += (1 - up) * moved[index(rows.front()[i])] +
+                                            up * moved[index(rows.back()[i])];
+        }
+    }
     put_rim(columns, nodes);
     return nodes;
 }
 
 /// Node positions from the rims alone, without the surface.
-Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, const AskSpreader& spreader,
-                      const RunContext& context)
+Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, Rows rows,
+                      const AskSpreader& spreader, const RunContext& context)
 {
     Guess guess{source.nodes, true};
     if (columns.rim.empty()) return guess;
@@ -77,7 +92,8 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, c
     const double negligible = kNegligible * shrink * shortest_side(source.quads, source.nodes);
     const geometry::AffineFit fit =
         RimFitter(low, sides, source.nodes).fit(high, rim_area(high, sides), negligible);
-    if (fit.max_residual > negligible) return {image_by(fit, source, columns, spreader, context), false};
+    if (fit.max_residual > negligible)
+        return {image_by(fit, source, columns, rows, spreader, context), false};
     for (Vec3& node : guess.nodes) node = fit(node);
     put_rim(columns, guess.nodes);
     return guess;
@@ -141,7 +157,7 @@ Candidate smoothed(const mesh::QuadMesh& source, const AskSpreader& spreader,
 } // namespace
 
 Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const SurfaceProjector& project,
-              const RunContext& context)
+              const RunContext& context, std::span<const std::vector<Index>> rows)
 {
     check_columns(source, columns);
     const std::vector<Index> free_nodes = nodes_off_rim(source, columns);
@@ -149,7 +165,7 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
     const AskSpreader spreader = [&]() -> const Spreader& {
         return made ? *made : made.emplace(source, columns.rim, context);
     };
-    const Guess guess = guess_from_rims(source, columns, spreader, context);
+    const Guess guess = guess_from_rims(source, columns, rows, spreader, context);
 
     Morphed result;
     result.worst_source = worst_quad(source.quads, source.nodes, context);
@@ -183,17 +199,17 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
         };
         // Start from the source, with its nodes displaced like its rim. This suits a skin far from its rims,
         // such as a bent tube that is swept through its thickness. There an affine fit of the rims does not
-        // describe the inside.
+        // describe the inside, and the residual turns with the bend, so it is not spread along grid lines.
         if (before < good_enough && !guess.affine)
-            start_from(image_by([](const Vec3& p) { return p; }, source, columns, spreader, context),
+            start_from(image_by([](const Vec3& p) { return p; }, source, columns, {}, spreader, context),
                        ", from the source moved with its rim");
         // Start from the harmonic image, in which every inner node is the weighted mean of its neighbours.
         // There, raised parts of the source (pockets, bosses, steps) lie side by side. In an affine image
         // they would overlap.
         if (found.worst < kStandsUp * good_enough && !columns.rim.empty())
-            start_from(
-                image_by([](const Vec3&) { return Vec3(Vec3::Zero()); }, source, columns, spreader, context),
-                ", from its harmonic image");
+            start_from(image_by([](const Vec3&) { return Vec3(Vec3::Zero()); }, source, columns, {}, spreader,
+                                context),
+                       ", from its harmonic image");
         // Start from a membrane. With a flat start in a deep bowl above a flat rim, the closest points of the
         // surface would crowd at the rim.
         if (found.worst < kStandsUp * good_enough) {

@@ -116,7 +116,8 @@ Morphed morph_onto(const OpenVolume& volume, const surface::SourceMesh& source, 
 {
     const surface::Projector target(volume.model, volume.faces(Role::target));
     return morph(
-        source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context);
+        source.quads, columns, [&](std::span<Vec3> points) { target.project(points, context); }, context,
+        source.rows);
 }
 
 Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& columns,

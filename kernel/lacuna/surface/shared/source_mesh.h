@@ -43,6 +43,9 @@ struct SourceMesh {
     std::vector<Index> first; ///< first quad node of each linking surface
     /// For each source edge, its quad nodes in the direction of the edge.
     std::map<EdgeId, std::vector<Index>> on_edge;
+    /// If a tube is the only source face: its rows of nodes from rim to rim, equally many in each row. Nodes
+    /// with one index are on one grid line.
+    std::vector<std::vector<Index>> rows;
     std::vector<std::string> notes; ///< for each face, a line that states the method
 };
 

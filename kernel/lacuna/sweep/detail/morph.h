@@ -29,9 +29,11 @@ struct Morphed {
 /// surface, and smoothed on it if this improves the worst quad.
 ///
 /// @param project  empty: nodes are not projected.
+/// @param rows     `SourceMesh::rows` of a tube: the residual varies linearly along its grid lines. On the
+///         target, these then lead from rim node to rim node, too.
 /// @post  rim nodes are those of the columns, bit for bit.
 /// @throw InvalidInput  columns that do not fit the source; names the node.
 Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const SurfaceProjector& project,
-              const RunContext& context = {});
+              const RunContext& context = {}, std::span<const std::vector<Index>> rows = {});
 
 } // namespace lacuna::sweep
