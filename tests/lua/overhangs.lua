@@ -311,6 +311,16 @@ BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])
   _, err = fill(tube)
   check.that(math.abs(fill(tube, advised(err)) / (math.pi * 2500 * 100) - 1) < 0.02, err)
 
+  -- The hollow between the halves of a mould.
+  local _, mould = solids("mould", [[
+Box(1) = {-50,-50,-60, 100,100,60};  Cylinder(2) = {0,0,-40, 0,0,40, 30};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Box(4) = {-50,-50,0, 100,100,30};  Cylinder(5) = {0,0,-30, 0,0,30, 20};
+BooleanUnion(6) = { Volume{4}; Delete; }{ Volume{5}; Delete; };]])
+  _, err = fill(mould)
+  local part = math.pi * (900 * 40 - 400 * 30)
+  check.that(math.abs(fill(mould, advised(err)) / part - 1) < 0.02, err)
+
   local _, block = solids("block", "Box(1) = {0,0,0, 20,20,20};")
   _, err = fill(block)
   check.that(not err:find("note", 1, true), err)

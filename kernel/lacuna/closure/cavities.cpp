@@ -106,7 +106,6 @@ std::vector<Cavity> cavities(const Model& model, const RunContext& context)
 std::vector<Cavity> largest_cavities(const Model& model, std::size_t most, const RunContext& context)
 {
     std::vector<Candidate> order = candidates(model, context);
-    std::erase_if(order, [](const Candidate& candidate) { return candidate.mouths == 0; });
     std::ranges::stable_sort(order, std::greater(), &Candidate::volume);
     std::vector<Cavity> result;
     for (const Candidate& candidate : order) {

@@ -454,9 +454,11 @@ void note_body_filled(const Model& model, const RunContext& context)
     constexpr std::size_t kMostNamed = 2; // more would hide the first
     std::string words;
     for (const closure::Cavity& cavity : closure::largest_cavities(model, kMostNamed, context)) {
-        const auto tag = [&](FaceId face) { return std::to_string(model[face].tag); };
+        std::set<int> tags; // parts of one face have its tag
+        for (const FaceId face : cavity.faces) tags.insert(model[face].tag);
         words += formatted("; for its {} of volume {:.4g}{} give faces={{{}}}", cavity.kind, cavity.volume,
-                           cavity.has_bodies ? " (with the bodies in it)" : "", full_list(cavity.faces, tag));
+                           cavity.has_bodies ? " (with the bodies in it)" : "",
+                           full_list(tags, [](int tag) { return std::to_string(tag); }));
     }
     if (!words.empty()) log_line(context, "note: no faces are named, so the body itself is filled" + words);
 }
@@ -465,6 +467,8 @@ void note_body_filled(const Model& model, const RunContext& context)
 Volume open_joined(const Model& model, const RoleRequest& request, const RunContext& context)
 {
     const auto joined = join_touching_parts(model, named_faces(model, request), request.find_walls, context);
+    if (!request.roles && !request.faces && !request.full_turn)
+        note_body_filled(joined ? joined->model : model, context);
     if (!joined) return open_apart(model, request, context);
     log_line(context, joined->note);
     RoleRequest now = joined_request(request, *joined);
@@ -493,11 +497,9 @@ Volume open_named(const Model& model, const RoleRequest& request, const RunConte
 
 Volume open(const Model& model, const RoleRequest& request, const RunContext& context)
 {
-    Volume volume = unless_faces_cross(model, named_faces(model, request), context, [&] {
+    return unless_faces_cross(model, named_faces(model, request), context, [&] {
         return open_named(model, without_repeats(model, request, context), context);
     });
-    if (!request.roles && !request.faces && !request.full_turn) note_body_filled(model, context);
-    return volume;
 }
 
 } // namespace lacuna::fill
