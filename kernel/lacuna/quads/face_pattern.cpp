@@ -439,7 +439,7 @@ public:
     PatternTrial(const PlanarRegion& region, const RunContext& context)
         : region_(region),
           context_(context),
-          sizes_(paving::sizes_with_boundary(region)),
+          size_(paving::size_with_boundary(region)),
           has_half_ends_(has_half_ends(region))
     {
     }
@@ -470,7 +470,7 @@ private:
     {
         const PatternFiller like = fill({about, 1});
         if (like.more_sides() % 2 != 0 || like.more_sides() == 0 || !like.may_change()) return;
-        for (const FacePattern& unlike : unlike_rings(region_, sizes_.ring, about, like.more_sides())) {
+        for (const FacePattern& unlike : unlike_rings(region_, size_, about, like.more_sides())) {
             fill(unlike);
             if (is_square_) return;
         }
@@ -518,7 +518,7 @@ private:
         const TemplateMesh filled = fill_template(loop, corners, cut);
         PlanarQuads mesh{region_.points, {}, formatted("grids at {} corners", corners.size())};
         add_filling(mesh.points, mesh.quads, region_.loops[0], filled.inner, filled.quads);
-        return smoothed(std::move(mesh), region_, sizes_.usual, context_);
+        return smoothed(std::move(mesh), region_, size_, context_);
     }
 
     void keep(PlanarQuads mesh)
@@ -529,7 +529,7 @@ private:
         constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
         const bool decides = has_half_ends_ || region_.loops.size() == 1;
-        fits_.push_back(!decides || paving::has_quads_asked(made_.back(), sizes_.usual) ? 1 : 0);
+        fits_.push_back(!decides || paving::has_quads_asked(made_.back(), size_) ? 1 : 0);
         if (!fits_.back()) return;
         const PlaneQuality quality = measure_plane(made_.back(), region_);
         is_square_ = is_square_ || quads::is_fine(quality, kSquare, 0);
@@ -539,14 +539,14 @@ private:
     PatternFiller fill(const FacePattern& pattern)
     {
         check_cancelled(context_);
-        PatternFiller filler(region_, pattern, pattern.about > 0 ? sizes_.ring : sizes_.usual);
+        PatternFiller filler(region_, pattern, size_);
         if (auto mesh = filler.run(context_)) keep(std::move(*mesh));
         return filler;
     }
 
     const PlanarRegion& region_;
     const RunContext& context_;
-    const paving::BoundarySizes sizes_;
+    const SizeField size_;
     std::vector<PlanarQuads> made_;
     /// For each mesh, whether it has the requested number of quads, or this number does not matter.
     std::vector<char> fits_;

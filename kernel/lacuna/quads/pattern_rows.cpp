@@ -48,8 +48,8 @@ public:
     bool lay_round_end()
     {
         const std::size_t n = loop_.size();
-        if (n < kFewestRoundEnd || loop_.turn(1) != 0 || loop_.turn(n - 1) != 0) return false;
         std::vector<Index> inner(n - 2);
+        if (inner.size() < 3 || loop_.turn(1) != 0 || loop_.turn(n - 1) != 0) return false;
         inner[0] = add(at(1) + at(n - 1) - at(0));
         for (std::size_t i = 1; i < inner.size(); ++i) inner[i] = add_inner(i + 1);
         quads_.push_back({loop_.nodes[0], loop_.nodes[1], inner[0], loop_.nodes[n - 1]});
@@ -108,9 +108,6 @@ public:
     }
 
 private:
-    static constexpr std::size_t kFewestRoundEnd = 5; ///< in shorter loops, the row's inner side would have
-                                                      ///< fewer than three nodes
-
     [[nodiscard]] const Vec2& at(std::size_t i) const { return point_of(points_, loop_.nodes, i); }
 
     Index add(const Vec2& p)

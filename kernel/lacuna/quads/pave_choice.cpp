@@ -32,28 +32,22 @@ constexpr std::size_t kSmall = 4000;
 /// 48 candidates to maximise the mean score of the best attempt over 220 generated outlines. Each further row
 /// would gain less than 0.001.
 constexpr std::array<CutWeights, 7> kCutWeights{{
-    {.corners = 0.5, .added = 0.75, .bent = 0.375, .least_patch = 0.5, .most_patch = 0.8},
-    {.added = 0.5, .mismatch = 0.5, .bent = 0.375, .least_patch = 0.5, .most_patch = 0.85},
-    {.corners = 0.5, .added = 0.75, .mismatch = 2, .bent = 0.375, .most_patch = 0.8},
+    {.corners = 0.5, .added = 0.75, .bent = 0.375, .good_patch = 0.5},
+    {.added = 0.5, .mismatch = 0.5, .bent = 0.375, .good_patch = 0.5},
+    {.corners = 0.5, .added = 0.75, .mismatch = 2, .bent = 0.375},
     {.corners = 0.5, .length = 1.35, .mismatch = 0.75, .bent = 1},
-    {.corners = 0.75, .length = 1.35, .mismatch = 0.5, .least_patch = 0.7, .most_patch = 0.8},
+    {.corners = 0.75, .length = 1.35, .mismatch = 0.5, .good_patch = 0.7},
     {.added = 0.5, .length = 0.75, .mismatch = 1.35, .bent = 0.25},
-    {.corners = 0.75, .added = 0.75, .length = 0.5, .bent = 0.675, .most_patch = 0.85},
+    {.corners = 0.75, .added = 0.75, .length = 0.5, .bent = 0.675},
 }};
 
 /// Weights for few quads without rows along the boundary: the first rows that `choose_weights few 101 120`
 /// prints (`benchmarks/pave/`), chosen greedily from 64 candidates on 355 generated outlines of 60 to 400
 /// quads. A fourth row would gain less than 0.01.
 constexpr std::array<CutWeights, 3> kFewWeights{{
-    {.corners = 0.5, .added = 0.5, .mismatch = 2, .least_patch = 0.5, .most_patch = 0.85},
+    {.corners = 0.5, .added = 0.5, .mismatch = 2, .good_patch = 0.5},
     {.added = 0.5, .length = 0.75, .mismatch = 1.35, .bent = 0.25},
-    {.corners = 0.75,
-     .added = 0.5,
-     .length = 2,
-     .mismatch = 2,
-     .bent = 0.375,
-     .least_patch = 0.7,
-     .most_patch = 0.7},
+    {.corners = 0.75, .added = 0.5, .length = 2, .mismatch = 2, .bent = 0.375, .good_patch = 0.7},
 }};
 
 /// Score at which no further weights are tried. The maximum is 3.325, so that little more can be gained.
@@ -152,9 +146,8 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_
 
 /// Whether the images of a part are so good that no further attempt is needed. Because it is symmetric, the
 /// mesh may have a few more irregular nodes than others.
-/// @param asked  the size from which the requested number of quads follows.
-/// @param few    whether there are so few quads that the given sides determine their sizes.
-bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const SizeField& asked, bool few)
+/// @param few  whether there are so few quads that the given sides determine their sizes.
+bool is_good_part(const Attempt& attempt, const PlanarRegion& region, bool few)
 {
     // Lower bounds for the least and mean scaled Jacobian and the share of edges of the requested size; not
     // measured.
@@ -164,7 +157,7 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const Size
     // At nodes where images meet, on an axis or at the centre, each image may add one quad too many.
     constexpr Index kMostQuads = 6;
     if (std::ranges::max(valences(attempt.mesh.quads, attempt.mesh.points.size())) > kMostQuads) return false;
-    return reaches(limits, attempt, region) && has_quads_asked(attempt.mesh, asked);
+    return reaches(limits, attempt, region) && has_quads_asked(attempt.mesh, region.size);
 }
 
 /// Whether a mesh of a coarse region, with its quads cut in four, is so good that no further attempt is
@@ -214,11 +207,9 @@ AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& op
       least_irregular_(least_irregular(region)),
       is_few_(quads_within(region) < kFewWeighted),
       few_graded_(quads_within(region) < kFewQuads && region.size),
-      setting_{region_, {}, flat_below(region)}
+      setting_{region_, size_with_boundary(region), flat_below(region)}
 {
-    BoundarySizes sizes = sizes_with_boundary(region);
-    setting_.size = std::move(sizes.usual);
-    judged_.size = std::move(sizes.ring);
+    judged_.size = setting_.size;
 }
 
 AttemptChooser::Judged AttemptChooser::judge_score(Attempt& made) const
@@ -341,8 +332,8 @@ bool AttemptChooser::try_coarse()
 bool AttemptChooser::try_part(const MirrorPart& part, bool few, std::vector<Attempt>& grids)
 {
     Attempt attempt = fill_part(part);
-    const bool is_good = is_good_part(attempt, judged_, judged_.size, false) ||
-                         (few && is_good_part(attempt, judged_, setting_.size, true));
+    const bool is_good = is_good_part(attempt, judged_, false) ||
+                         (few && is_good_part(attempt, judged_, true));
     if (is_good) {
         is_good_grid_ = true;
         best_ = std::move(attempt);
@@ -371,7 +362,7 @@ bool AttemptChooser::try_blocks()
         const auto block = central_block(region_, symmetries, size, choice);
         if (!block) return kept;
         Attempt attempt = fill_about(*block);
-        if (!is_good_part(attempt, judged_, judged_.size, false)) continue;
+        if (!is_good_part(attempt, judged_, false)) continue;
         const double score = score_of(measure_plane(attempt.mesh, judged_));
         if (score < best) continue;
         best = score;

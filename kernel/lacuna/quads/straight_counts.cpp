@@ -284,7 +284,7 @@ std::optional<double> score_of_counts(const CountTask& task, std::span<const int
         }
     }
     const std::vector<PlanarQuads> meshes = fill_patterns(made);
-    made.size = paving::sizes_with_boundary(made).ring;
+    made.size = paving::size_with_boundary(made);
     std::optional<double> best;
     for (const PlanarQuads& mesh : meshes) {
         const double off = (static_cast<double>(mesh.quads.size()) / asked - 1) / kQuadsOff;

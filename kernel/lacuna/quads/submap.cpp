@@ -59,7 +59,7 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     const bool four_sided = loops.size() == 1 && corner_count(loops.front()) == 4;
     PlanarQuads mesh{region.points, {}, four_sided ? "mapped" : "submapped"};
     grid.add_cells(mesh);
-    const auto size = paving::sizes_with_boundary(region).usual;
+    const auto size = paving::size_with_boundary(region);
     smooth_plane(mesh.points, mesh.quads, fixed, {.size = size, .repairs = 0}, context);
     // Poor quads are improved one by one only if their share of all quads is at most this. A grid that is
     // poor everywhere would not become good.

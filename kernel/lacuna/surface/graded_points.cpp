@@ -6,34 +6,28 @@
 
 namespace lacuna::surface {
 
-GradedPoints::GradedPoints(std::vector<PointSize> points, double grading)
-    : points_(std::move(points)), grading_(grading)
+GradedPoints::GradedPoints(std::vector<PointSize> points, double grading) : grading_(grading)
 {
-    if (!points_.empty()) build(0, points_.size());
+    if (!points.empty()) build(points);
 }
 
-std::size_t GradedPoints::build(std::size_t begin, std::size_t end)
+std::size_t GradedPoints::build(std::span<PointSize> points)
 {
-    constexpr std::size_t kLeaf = 8; // points per leaf; heuristic
     const std::size_t number = nodes_.size();
     Node node;
-    node.begin = begin;
-    node.end = end;
-    node.least = points_[begin].size;
-    for (std::size_t i = begin; i < end; ++i) {
-        node.box.extend(points_[i].point);
-        node.least = std::min(node.least, points_[i].size);
+    for (const PointSize& own : points) {
+        node.box.extend(own.point);
+        node.least = std::min(node.least, own.size);
     }
     nodes_.push_back(node);
-    if (end - begin <= kLeaf) return number;
+    if (points.size() == 1) return number;
     Eigen::Index axis = 0;
     node.box.sizes().maxCoeff(&axis);
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end),
-                     [&](const PointSize& a, const PointSize& b) { return a.point[axis] < b.point[axis]; });
-    build(begin, middle);
-    nodes_[number].right = build(middle, end);
+    const std::size_t middle = points.size() / 2;
+    std::ranges::nth_element(points, points.begin() + static_cast<std::ptrdiff_t>(middle), {},
+                             [&](const PointSize& own) { return own.point[axis]; });
+    build(points.first(middle));
+    nodes_[number].right = build(points.subspan(middle));
     return number;
 }
 
@@ -46,8 +40,7 @@ void GradedPoints::search(std::size_t number, const Vec3& place, double& least) 
 {
     const Node& node = nodes_[number];
     if (node.right == 0) {
-        for (std::size_t i = node.begin; i < node.end; ++i)
-            least = std::min(least, points_[i].size + grading_ * (points_[i].point - place).norm());
+        least = bound(node, place); // the box of a leaf is its point
         return;
     }
     std::size_t near = number + 1, far = node.right;

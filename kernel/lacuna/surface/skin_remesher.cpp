@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <queue>
 #include <utility>
 
@@ -25,14 +26,9 @@ constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
 /// Number of rounds of splitting, collapsing, flipping and smoothing. On the bodies of the tests, the
 /// smallest angle did not change after the fifth round.
 constexpr int kRounds = 6;
-/// Tangent of 30°. After all rounds, triangles with a smaller angle are improved one by one, in as many
-/// rounds.
-constexpr double kGoodAngle = 0.577;
 /// Tangent of 15°: the smallest angle that a collapse or a move may create. Later flips and moves
 /// approximately double such small angles.
 constexpr double kPoorAngle = 0.27;
-/// Tangent of an angle that counts as zero.
-constexpr double kFlat = 1e-4;
 /// Maximum number of triangles, as a multiple of the estimate from area and size before the first round.
 /// Skins with badly shaped triangles need at most twice the estimate. Without a limit, splitting would not
 /// end next to folded facets.
@@ -76,7 +72,7 @@ Index SkinRemesher::try_split(Index s)
     if (mesh_.is_kept(s) || (line >= 0 && lines_[index(line)].kept)) return -1;
     // A triangle without height is flipped or collapsed first. It is not split, because its parts would have
     // no height either.
-    if (line < 0 && std::min(std::abs(mesh_.quality(s)), std::abs(mesh_.quality(g))) < kFlat) return -1;
+    if (line < 0 && std::min(std::abs(mesh_.quality(s)), std::abs(mesh_.quality(g))) < kVisible) return -1;
     const auto& side = mesh_.sides;
     const auto normal_at = [&](Index x) {
         return Vec3(side[index(x)].normal + side[index(LinkedTriangles::next(x))].normal).stableNormalized();
@@ -369,19 +365,21 @@ bool SkinRemesher::improve(Index side, bool moves)
 
 void SkinRemesher::improve(bool moves)
 {
+    // Triangles with an angle below 30°, half of an equilateral triangle's, are improved one by one.
+    const double good = std::numbers::inv_sqrt3;
     flip_all();
     for (int round = 0; round < kRounds; ++round) {
         std::vector<std::pair<double, Index>> poor;
         for (std::size_t i = 0; i < mesh_.sides.size(); i += 3) {
             const auto s = static_cast<Index>(i);
             if (!mesh_.lives(s) || mesh_.owner(s).kept) continue;
-            if (const double q = mesh_.quality(s); q < kGoodAngle) poor.emplace_back(q, s);
+            if (const double q = mesh_.quality(s); q < good) poor.emplace_back(q, s);
         }
         std::ranges::sort(poor);
         bool any = false;
         for (const auto& [before, s] : poor) {
             check_cancelled(context_);
-            if (mesh_.lives(s) && mesh_.quality(s) < kGoodAngle) any = improve(s, moves) || any;
+            if (mesh_.lives(s) && mesh_.quality(s) < good) any = improve(s, moves) || any;
         }
         flip_all();
         if (!any) break;

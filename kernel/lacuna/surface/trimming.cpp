@@ -22,10 +22,6 @@ namespace {
 /// Number of Newton iterations on a curve. The iterations start at most a few percent of a side away from the
 /// solution and converge quadratically. Heuristic.
 constexpr int kRounds = 3;
-/// Minimum number of points per thread. It is the same as in the search for closest facets (`Projector`),
-/// because a point takes about the same time.
-constexpr std::size_t kGrain = 512;
-
 /// Maximum height of a convex curve over its chord, as a share of the chord's length.
 /// @param first, second  angles between curve and chord at the two ends [radian].
 double height_over_chord(double first, double second)
@@ -188,14 +184,14 @@ void Trimming::keep_inside(std::span<const Projected> points, const RunContext& 
         });
     }
     std::vector<char> clear(points.size(), 0);
-    parallel_each(context, points.size(), kGrain,
+    parallel_each(context, points.size(), kPerTask,
                   [&](std::size_t i) { clear[i] = is_clear(points[i], measured) ? 1 : 0; });
     std::vector<Near> near;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (clear[i] == 0) near.emplace_back().point = i;
     }
     std::vector<char> taken(near.size(), 0);
-    parallel_each(context, near.size(), kGrain,
+    parallel_each(context, near.size(), kPerTask,
                   [&](std::size_t i) { taken[i] = is_near(points[near[i].point], near[i]) ? 1 : 0; });
     std::map<EdgeId, std::vector<Near>> by_edge;
     for (std::size_t i = 0; i < near.size(); ++i) {

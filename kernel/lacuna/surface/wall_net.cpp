@@ -17,9 +17,8 @@ using namespace topology;
 
 namespace {
 
-/// Tangent of 30°. If an edge deviates by a larger angle from the direction of its column or level, it counts
-/// as slanted or round. Heuristic.
-constexpr double kSlanted = 0.577;
+/// Whether an edge leaves the direction of its column or level as at a crease.
+bool is_slanted(double across, double along) { return std::atan2(across, along) > kCreaseAngle * kDegree; }
 
 double wrapped(double s) { return s - std::floor(s + kSamePlace); }
 
@@ -77,7 +76,7 @@ private:
         for (const LinkingMap::Piece& piece : upright.pieces) up += piece.b.y() - piece.a.y();
         for (const LinkingMap::Piece& piece : upright.pieces) {
             const double rise = (up > 0 ? 1 : -1) * (piece.b.y() - piece.a.y()) * map_.height();
-            if (std::abs(piece.b.x() - piece.a.x()) * map_.width() > kSlanted * rise)
+            if (is_slanted(std::abs(piece.b.x() - piece.a.x()) * map_.width(), rise))
                 refuse_direction(upright.edge);
         }
         const Edge& edge = model_[upright.edge];
@@ -220,7 +219,7 @@ private:
         }
         for (const LinkingMap::Piece& piece : map_.rings()[*level.ring].pieces) {
             const double along = (round[piece.edge] > 0 ? 1 : -1) * (piece.b.x() - piece.a.x());
-            if (std::abs(piece.b.y() - piece.a.y()) * map_.height() > kSlanted * along * map_.width())
+            if (is_slanted(std::abs(piece.b.y() - piece.a.y()) * map_.height(), along * map_.width()))
                 refuse_direction(piece.edge);
         }
     }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/types.h>
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace lacuna::surface {
@@ -27,15 +29,13 @@ public:
 private:
     struct Node {
         Eigen::AlignedBox3d box;
-        double least = 0; ///< minimum size of its points
-        std::size_t begin = 0, end = 0;
-        std::size_t right = 0; ///< index of the second child (the first one follows its parent); 0: a leaf
+        double least = kInfinity; ///< minimum size of its points
+        std::size_t right = 0;    ///< index of the second child (the first one follows its parent); 0: a leaf
     };
-    std::size_t build(std::size_t begin, std::size_t end);
+    std::size_t build(std::span<PointSize> points);
     void search(std::size_t node, const Vec3& place, double& least) const;
     [[nodiscard]] double bound(const Node& node, const Vec3& place) const;
 
-    std::vector<PointSize> points_;
     std::vector<Node> nodes_;
     double grading_;
 };
