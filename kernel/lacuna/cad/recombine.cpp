@@ -2,6 +2,7 @@
 #include <lacuna/cad/load.h>
 
 #include <lacuna/cad/detail/worker.h>
+#include <lacuna/core/shared/limits.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,6 @@ namespace lacuna::cad {
 using namespace cad_protocol;
 
 namespace {
-
-/// Number of points of the size raster along the longer side of a region. If the sizes vary over a tenth of
-/// the region, the error is then one percent.
-constexpr int kCrossings = 96;
 
 std::size_t side_count(const quads::PlanarRegion& region)
 {
@@ -47,7 +44,7 @@ SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBo
 {
     SizeRaster raster;
     raster.origin = box.min();
-    raster.step = box.sizes().maxCoeff() / (kCrossings - 1);
+    raster.step = box.sizes().maxCoeff() / kFineChords;
     const auto lines = [&](double length) {
         return std::max(2, static_cast<int>(std::ceil(length / raster.step)) + 1);
     };

@@ -2,6 +2,7 @@
 #include <lacuna/cad/detail/worker.h>
 
 #include <lacuna/cad/detail/worker_program.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/progress.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <thread>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -343,8 +345,8 @@ std::string Worker::last_words() const
 void Worker::died(const Task& task)
 {
     // The stream may close shortly before the process ends.
-    constexpr int kTries = 100; // 10 ms each: a large process takes time to end
-    for (int i = 0; i < kTries && !has_ended(process_); ++i) ::usleep(10'000);
+    for (int i = 0; i < kMostRounds && !has_ended(process_); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(cad_protocol::kTick));
     end("it crashed on " + task.subject);
     throw BackendError(Message("cad.worker_ended",
                                "{}: the CAD process ended while {}: {}{}. The file is damaged or Open "

@@ -22,8 +22,6 @@ namespace {
 /// Near the surface, a step with first derivatives gains a digit or more. Points that are as far away as the
 /// radius of curvature need second derivatives.
 constexpr int kCheapSteps = 8;
-/// Convergence tolerance, relative to the diagonal of the model.
-constexpr double kPrecision = 1e-10;
 
 /// State of the projection of one point, in file lengths.
 struct Iterate {
@@ -124,13 +122,13 @@ void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const Parameter
     for (int k = 0; k < 2; ++k) {
         const int other = 1 - k;
         if (across[k] > 1e-6 * across[other] || (it.target - it.at).norm() <= precision) continue;
-        constexpr double kInward = 0.02; // share of the box by which a start is moved off the pole
+        const double inward = side[other] / kFineChords;
         std::vector<Vec2> ring(kChords);
         const bool at_low = it.uv[other] - box.low[other] < side[other] / 2;
         for (int i = 0; i < kChords; ++i) {
             Vec2& uv = ring[static_cast<std::size_t>(i)];
             uv[k] = box.low[k] + side[k] * (i + 0.5) / kChords;
-            uv[other] = it.uv[other] + (at_low ? kInward : -kInward) * side[other];
+            uv[other] = it.uv[other] + (at_low ? inward : -inward);
         }
         const std::vector<Vec3> at = surface_points(tag, ring);
         const auto nearest = std::min_element(at.begin(), at.end(), [&](const Vec3& a, const Vec3& b) {
@@ -190,7 +188,7 @@ void project_on_face(const CadSource& source, int tag, std::span<Vec3> points, s
         }
         std::vector<std::size_t> active(all.size());
         std::iota(active.begin(), active.end(), std::size_t{0});
-        const double precision = kPrecision * source.diagonal;
+        const double precision = kSamePlace / 10 * source.diagonal; // see `kSamePlace`
         const std::vector<SurfaceFrame> frames = surface_frames(tag, start);
         for (std::size_t i = 0; i < all.size(); ++i) leave_pole(all[i], frames[i], tag, box, precision);
         for (int step = 0; step < kMostRounds; ++step) {

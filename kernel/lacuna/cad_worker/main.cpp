@@ -25,9 +25,8 @@ void watch_host(pid_t host)
 {
     for (;;) {
         pollfd socket{lacuna::cad_protocol::kSocket, POLLRDHUP, 0};
-        constexpr int kPause = 1000; // [ms]; then the parent is checked too, because a forked child of the
-                                     // host may keep the socket open
-        ::poll(&socket, 1, kPause);
+        // The parent is checked too, because a forked child of the host may keep the socket open.
+        ::poll(&socket, 1, lacuna::cad_protocol::kTick);
         if ((socket.revents & (POLLRDHUP | POLLHUP | POLLERR | POLLNVAL)) != 0 || ::getppid() != host)
             ::_exit(0);
     }

@@ -21,9 +21,6 @@ using cad_protocol::SplineSurfaceData;
 
 namespace {
 
-/// Tolerance for recognising a shape after it was copied through a file, relative to the diagonal.
-constexpr double kSame = 1e-7;
-
 /// Points of an entity at a few fixed fractions of its parameter range. A copy of the entity has the same
 /// points.
 std::vector<Vec3> probes_of(int dim, int tag)
@@ -49,8 +46,9 @@ struct Fingerprint {
     [[nodiscard]] bool is(const Fingerprint& other, double scale, double diagonal) const
     {
         for (std::size_t i = 0; i < probes.size(); ++i)
-            if ((probes[i] * scale - other.probes[i]).norm() > kSame * diagonal * scale) return false;
-        return std::abs(area * scale * scale - other.area) <= kSame * diagonal * diagonal * scale * scale;
+            if ((probes[i] * scale - other.probes[i]).norm() > kFileAccuracy * diagonal * scale) return false;
+        return std::abs(area * scale * scale - other.area) <=
+               kFileAccuracy * diagonal * diagonal * scale * scale;
     }
 };
 

@@ -157,22 +157,23 @@ private:
     /// Largest share of the requested thickness at which no facet folds, rounded down to a whole percent.
     [[nodiscard]] double largest_share() const
     {
-        constexpr int kPercent = 100;
-        for (int percent = 1; percent <= kPercent; ++percent) {
-            for (const FaceId face : all_faces(given_)) {
-                for (const Triangle& t : given_[face].triangles) {
-                    const auto normal = [&](double height) -> Vec3 {
-                        const auto at = [&](std::size_t i) -> Vec3 {
-                            return given_.at(t[i]) + height * reach_[index(t[i])];
-                        };
-                        return (at(1) - at(0)).cross(at(2) - at(0));
-                    };
-                    if (!(normal(0).dot(normal(static_cast<double>(percent) / kPercent)) > 0))
-                        return static_cast<double>(percent - 1) / kPercent;
-                }
+        double share = 1;
+        for (const FaceId face : all_faces(given_)) {
+            for (const Triangle& t : given_[face].triangles) {
+                const auto side = [&](std::size_t i) -> Vec3 { return given_.at(t[i]) - given_.at(t[0]); };
+                const auto more = [&](std::size_t i) -> Vec3 {
+                    return reach_[index(t[i])] - reach_[index(t[0])];
+                };
+                // The area at the height h, seen along the given normal, is a + b h + c h².
+                const Vec3 normal = side(1).cross(side(2));
+                const double a = normal.squaredNorm(), c = normal.dot(more(1).cross(more(2)));
+                const double b = normal.dot(side(1).cross(more(2)) + more(1).cross(side(2)));
+                const double root = b * b - 4 * a * c;
+                const double falls = std::sqrt(std::max(root, 0.0)) - b; // 2 a / h at the first zero
+                if (root >= 0 && falls > 0) share = std::min(share, 2 * a / falls);
             }
         }
-        return 1;
+        return std::floor(100 * share) / 100;
     }
 
     /// @throw NotClosed  the skin crosses itself.

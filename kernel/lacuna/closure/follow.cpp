@@ -63,8 +63,7 @@ double median(std::vector<double> values)
 /// @param levels  points of the sections, from the source to the target.
 double bow_of(const std::vector<std::vector<Vec3>>& levels)
 {
-    constexpr std::size_t kStep = 4; // checks every fourth level only, to save time
-    constexpr double kOnePart = 4;   // in mean steps: points that are further apart belong to different parts
+    constexpr double kOnePart = 4; // in mean steps: points that are further apart belong to different parts
     const std::size_t n = levels.front().size();
     std::vector<Vec3> points = levels.front();
     points.insert(points.end(), levels.back().begin(), levels.back().end());
@@ -81,7 +80,7 @@ double bow_of(const std::vector<std::vector<Vec3>>& levels)
     if (strip.empty()) return 0;
     const geometry::FacetTree tree(points, strip);
     std::vector<double> strays(n, 0.0); // squared
-    for (std::size_t k = kStep; k + 1 < levels.size(); k += kStep) {
+    for (std::size_t k = 1; k + 1 < levels.size(); ++k) {
         for (std::size_t i = 0; i < n; ++i)
             strays[i] = std::max(strays[i], tree.closest(levels[k][i]).distance2);
     }

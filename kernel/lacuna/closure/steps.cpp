@@ -14,6 +14,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/shared/face_facts.h>
@@ -33,9 +34,6 @@ namespace lacuna::closure {
 using namespace topology;
 
 namespace {
-
-/// Each cut reduces the number of steps. More cuts in a row than this mean an error in the cutter.
-constexpr int kRounds = 64;
 
 /// Whether the walls at an edge lead away from the opposite end.
 /// @param out  direction away from the opposite end.
@@ -250,7 +248,8 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
     for (const Role end : {Role::source, Role::target}) {
         Steps& own = steps[end == Role::source ? 0 : 1];
         if (own.closed.empty()) continue;
-        if (round == kRounds)
+        // Each cut reduces the number of steps.
+        if (round == kMostRounds)
             throw NotSweepable(
                 Message("closure.steps", "the volume has too many steps").remedy("cut it by planes first"));
         const Role other = end == Role::source ? Role::target : Role::source;
@@ -269,7 +268,7 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
         if (parts.size() < 2) continue;
         // A wall at a step may end in the plane of an earlier cut. Then the step's rim also has other walls,
         // and the planes of its walls must cut.
-        if (!risers.empty() && round < kRounds) return cut_at_risers(volume, risers, context, round + 1);
+        if (!risers.empty() && round < kMostRounds) return cut_at_risers(volume, risers, context, round + 1);
         throw NotSweepable(
             Message("closure.steps",
                     "the {} has several separate parts, such as {} and {}, and no walls lead from one to the "

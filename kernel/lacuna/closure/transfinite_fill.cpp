@@ -166,10 +166,9 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
     const bool even = side[0].chain.size() == side[2].chain.size() &&
                       side[1].chain.size() == side[3].chain.size();
     // A twisted patch needs more than a few facets, because the swept mesh follows the facets.
-    constexpr double kFewSegments = 8;
     const double across = (side[0].points.front() - side[2].points.front()).norm();
-    const bool twisted = std::min(width, height) < kFewSegments && twist_of(side) > kVisible * across;
-    const bool bent_both_ways = std::min(width, height) >= kFewSegments;
+    const bool twisted = std::min(width, height) < kChords && twist_of(side) > kVisible * across;
+    const bool bent_both_ways = std::min(width, height) >= kChords;
     const geometry::Triangulation flat = even && !twisted ? grid_between(side, outline, width, height)
                                          : twisted || bent_both_ways
                                              ? grid_within(outline, width, height, context)

@@ -8,6 +8,7 @@
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -108,13 +109,10 @@ VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell
 std::optional<VoidFilling> fill_on_sheet(const Model& model, const NewellOutline& newell,
                                          const QuadricSheet& sheet, const RunContext& context)
 {
-    // Number of facets along the diagonal of the outline. The facets are off the sheet by about a thousandth
-    // of the sheet's bulge. The total number of facets grows with the square of this number.
-    constexpr double kFacets = 32;
     const Outline& outline = newell.outline;
     Eigen::AlignedBox2d box;
     for (const Vec2& place : outline.flat) box.extend(place);
-    const geometry::Triangulation flat = fine_facets(outline, box.diagonal().norm() / kFacets, context);
+    const geometry::Triangulation flat = fine_facets(outline, box.diagonal().norm() / kFineChords, context);
     std::vector<double> heights(flat.points.size());
     for (std::size_t i = outline.flat.size(); i < heights.size(); ++i) {
         const std::optional<double> height = sheet.height(flat.points[i]);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 namespace lacuna {
 
@@ -19,10 +20,9 @@ void use_large_pages(void* memory, std::size_t bytes)
 
 void clear_pages(void* memory, std::size_t bytes, const std::atomic<bool>& enough)
 {
-    constexpr std::size_t kPage = 4096; // the smallest page size in use
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     auto* const begin = static_cast<volatile char*>(memory);
-    for (std::size_t at = 0; at < bytes && !enough.load(std::memory_order_relaxed); at += kPage)
-        begin[at] = 0;
+    for (std::size_t at = 0; at < bytes && !enough.load(std::memory_order_relaxed); at += page) begin[at] = 0;
 }
 
 } // namespace lacuna

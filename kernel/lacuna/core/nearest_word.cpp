@@ -2,19 +2,17 @@
 #include <lacuna/core/shared/nearest_word.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
+#include <numeric>
+#include <vector>
 
 namespace lacuna {
 
 std::size_t edit_distance(const char* a, const char* b)
 {
-    // Letters beyond this length are not compared. Only the difference between the lengths of the two words
-    // counts.
-    constexpr std::size_t kLongest = 63;
-    const std::size_t m = std::min(std::strlen(a), kLongest), n = std::min(std::strlen(b), kLongest);
-    std::array<std::size_t, kLongest + 1> row{};
-    for (std::size_t j = 0; j <= n; ++j) row[j] = j;
+    const std::size_t m = std::strlen(a), n = std::strlen(b);
+    std::vector<std::size_t> row(n + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 1; i <= m; ++i) {
         std::size_t diagonal = row[0];
         row[0] = i;
@@ -24,8 +22,7 @@ std::size_t edit_distance(const char* a, const char* b)
             row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
         }
     }
-    const std::size_t rest_a = std::strlen(a) - m, rest_b = std::strlen(b) - n;
-    return row[n] + std::max(rest_a, rest_b) - std::min(rest_a, rest_b);
+    return row[n];
 }
 
 std::size_t nearest_word(const char* word, std::span<const char* const> keys)

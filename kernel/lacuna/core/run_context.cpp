@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/run_context.h>
 
+#include <lacuna/core/shared/parallel.h>
+
 #include <lacuna/core/error.h>
 
 #include <algorithm>
 #include <thread>
 
 namespace lacuna {
-
-namespace {
-
-/// The number of threads is limited to the larger of this and the number of cores, in case a user mistypes
-/// it.
-constexpr int kMostThreads = 64;
-
-} // namespace
 
 void check_cancelled(const RunContext& context)
 {
@@ -24,9 +18,8 @@ void check_cancelled(const RunContext& context)
 int thread_count(const RunContext& context)
 {
     // The number of cores is queried only if it is needed: the query takes longer than a small loop.
-    if (context.threads > 0 && context.threads <= kMostThreads) return context.threads;
-    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    return context.threads > 0 ? std::min(context.threads, std::max(cores, kMostThreads)) : cores;
+    if (context.threads > 0) return std::min(context.threads, kMostThreads);
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 void log_line(const RunContext& context, std::string_view line)

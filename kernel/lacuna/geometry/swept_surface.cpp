@@ -6,6 +6,8 @@
 #include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace lacuna::geometry {
 
@@ -51,8 +53,8 @@ std::vector<Vec3> SweptSurface::at(std::span<const Vec2> uv, const RunContext& c
 void SweptSurface::project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context) const
 {
     const Vec2 low(edge_.params.front(), from_), high(edge_.params.back(), to_);
-    constexpr double kShare = 1e-5; // near the cube root of the rounding error, where a difference is best
-    const Vec2 small = kShare * (high - low);
+    // Central differences are most accurate for steps near the cube root of the rounding error.
+    const Vec2 small = std::cbrt(std::numeric_limits<double>::epsilon()) * (high - low);
     const auto inside = [&](const Vec2& p) -> Vec2 { return p.cwiseMax(low).cwiseMin(high); };
     const std::size_t n = points.size();
     for (Vec2& p : uv) p = inside(p);

@@ -12,6 +12,7 @@
 #include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <span>
@@ -43,8 +44,11 @@ void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>&
 ///         overflow or underflow.
 void check_size(const Vec3& low, const Vec3& high, double diagonal)
 {
-    constexpr double kLeast = 1e-70, kMost = 1e70; // their fourth powers are well within a double's range
-    if (low == high || (diagonal > kLeast && diagonal < kMost)) return;
+    using Limits = std::numeric_limits<double>;
+    const double smallest = kFileAccuracy * diagonal; // the fourth powers of lengths must be numbers
+    if (low == high ||
+        (smallest > std::pow(Limits::min(), 1. / 4) && diagonal < std::pow(Limits::max(), 1. / 4) / 2))
+        return;
     throw InvalidInput(Message("topology.size",
                                "the facets lie between {} and {}: at this size, areas overflow or underflow",
                                place_with_digits(low, 6), place_with_digits(high, 6))

@@ -176,14 +176,14 @@ bool Problem::has_hard(std::size_t s) const
 
 PointPairs Problem::led_near(std::size_t s) const
 {
-    constexpr std::size_t kMost = kNearLoops * kFineChords;
-    if (led.from.size() <= kMost) return led;
+    const std::size_t most = kNearLoops * kFineChords;
+    if (led.from.size() <= most) return led;
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t p = 0; p < led.from.size(); ++p)
         near.emplace_back((led.from[p] - source[s].centroid).squaredNorm(), p);
-    std::ranges::nth_element(near, near.begin() + kMost);
+    std::ranges::nth_element(near, near.begin() + static_cast<std::ptrdiff_t>(most));
     PointPairs pairs;
-    for (std::size_t k = 0; k < kMost; ++k) {
+    for (std::size_t k = 0; k < most; ++k) {
         pairs.from.push_back(led.from[near[k].second]);
         pairs.to.push_back(led.to[near[k].second]);
     }

@@ -2,6 +2,7 @@
 #include <lacuna/matching/side_lines.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -185,14 +186,13 @@ std::vector<double> climbs(const OpenVolume& volume, const std::set<EdgeId>& edg
 Rises rises(const OpenVolume& volume, const RunContext& context)
 {
     // If heights have nine correct digits, climbs have six. If a climb differs from `kLevel` by less than
-    // kDoubt, a thousand times this error, all heights are computed again with full precision.
-    constexpr double kDoubt = 1e-3;
+    // kVisible, a thousand times this error, all heights are computed again with full precision.
     const Model& model = volume.model;
     const std::set<EdgeId> between = edges_between(volume);
     if (between.empty()) return {};
     const std::vector<std::vector<FaceId>> parts = wall_parts_with(volume, between);
     std::vector<double> up;
-    const auto in_doubt = [](double u) { return std::abs(std::abs(u) - kLevel) <= kDoubt; };
+    const auto in_doubt = [](double u) { return std::abs(std::abs(u) - kLevel) <= kVisible; };
     if (!has_choices(volume, between))
         up = climbs(volume, between, heights_of(volume, parts, {}, Digits::nine, context));
     if (up.empty() || std::ranges::any_of(up, in_doubt))

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/detail/edge_counts.h>
@@ -22,10 +23,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// Maximum number of nodes on the edges of all members. More nodes would exhaust the memory before anything
-/// is meshed.
-constexpr double kMostNodes = 2e7;
 
 /// Points in the order in which they were added, found by their place in a grid of cells.
 class PointsByPlace {
@@ -80,7 +77,7 @@ public:
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             if (counts_.is_planned(e)) all += counts_.sides_of(e);
         }
-        if (all > kMostNodes)
+        if (all > kMostCells)
             throw InvalidInput(Message("sweep.too_many",
                                        "the edges shared by volumes of the assembly would have {:.0f} sides, "
                                        "more than memory allows",

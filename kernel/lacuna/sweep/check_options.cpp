@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/sweep.h>
 
@@ -10,10 +11,6 @@
 namespace lacuna::sweep {
 
 namespace {
-
-/// Maximum number of threads: larger than the core count of any supported machine, and far below the thread
-/// limit of an operating system.
-constexpr int kMostThreads = 1024;
 
 [[noreturn]] void refuse(const std::string& option, const Argument& must, const Argument& value)
 {

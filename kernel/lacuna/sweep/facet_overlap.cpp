@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/facet_overlap.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
@@ -14,11 +15,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// If the normals of two facets differ by more than 60° (a cosine below this), the facets are taken to be
-/// adjacent, and neither covers the other. Coarse facets of a curved face differ from fine ones by about 30°.
-/// With a lower value, adjacent faces would count as overlapping. Not measured.
-constexpr double kOver = 0.5;
 
 /// A polygon in a plane, with a height over the plane at each corner. Clipping a triangle by seven lines
 /// gives at most ten corners.
@@ -115,7 +111,9 @@ void add_overlap(const std::array<Vec3, 3>& one, const std::array<Vec3, 3>& othe
     const double size = twice.norm() * twice_other.norm();
     if (!(size > 0)) return;
     const double cosine = twice.dot(twice_other) / size;
-    if (std::abs(cosine) < kOver) return;
+    // The facets are adjacent, and neither covers the other. Coarse facets of a curved face differ from fine
+    // ones by about 30°.
+    if (std::abs(cosine) < kContinues) return;
     const Vec3 up = twice.normalized(), along = (one[1] - one[0]).normalized(), aside = up.cross(along);
     std::array<Vec3, 3> below, above;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -9,6 +9,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/background.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
@@ -115,7 +116,7 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const RunContext& co
         const std::span<const Vec3> rim = columns_.row(static_cast<int>(i) + 1);
         const Vec3 area = rim_area(rim, sides);
         const double size = radius(rim);
-        const double negligible = kNegligible * side_by_radius * size;
+        const double negligible = kVisible * side_by_radius * size;
         const geometry::AffineFit up = from_source.fit(rim, area, negligible);
         const geometry::AffineFit down = from_target.fit(rim, area, negligible);
         maps_[i] = {(1 - height) * up.linear, height * down.linear,

@@ -4,21 +4,13 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/seeds.h>
+#include <lacuna/sweep/detail/rim_arcs.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace lacuna::sweep {
-
-namespace {
-
-/// The mean points of one closed curve, computed from two different sets of chords, may differ by this share
-/// of the chords' sag. With a higher value, different curves would count as one; with a lower value, one
-/// curve with different chords would count as two. Not measured.
-constexpr double kSameCentre = 0.2;
-
-} // namespace
 
 MemberEdge member_edge(const topology::Model& model, std::size_t member, EdgeId edge,
                        const Eigen::Isometry3d& by)
@@ -51,7 +43,7 @@ bool is_same(const MemberEdge& a, const MemberEdge& b, double tolerance)
         // points by much less.
         const double off = tolerance + 2 * std::max(a.sag, b.sag);
         return (a.box.min() - b.box.min()).norm() <= off && (a.box.max() - b.box.max()).norm() <= off &&
-               (a.centre - b.centre).norm() <= tolerance + kSameCentre * std::max(a.sag, b.sag);
+               (a.centre - b.centre).norm() <= tolerance + kArcError * std::max(a.sag, b.sag);
     }
     const bool along = (a.from - b.from).norm() <= tolerance && (a.to - b.to).norm() <= tolerance;
     const bool back = (a.from - b.to).norm() <= tolerance && (a.to - b.from).norm() <= tolerance;

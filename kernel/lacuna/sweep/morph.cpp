@@ -89,7 +89,7 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, R
     const std::span<const Vec3> high = columns.row(columns.layers);
     const double low_size = radius(low);
     const double shrink = low_size > 0 ? radius(high) / low_size : 0;
-    const double negligible = kNegligible * shrink * shortest_side(source.quads, source.nodes);
+    const double negligible = kVisible * shrink * shortest_side(source.quads, source.nodes);
     const geometry::AffineFit fit =
         RimFitter(low, sides, source.nodes).fit(high, rim_area(high, sides), negligible);
     if (fit.max_residual > negligible)

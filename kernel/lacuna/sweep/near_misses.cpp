@@ -24,21 +24,14 @@ using namespace topology;
 
 namespace {
 
-/// A gap wider than this share of the smaller member is intended, whatever the tolerance. The value is half
-/// of the largest tolerance that a model can have. With a higher value, more intended gaps would be reported.
-/// Not measured.
-constexpr double kWidest = 5e-3;
 /// Two faces are a near miss only if at least this share of the area within four windows is within one
 /// window. The share is a quarter between faces that diverge linearly, and a half between faces that curve
 /// away from a contact.
 constexpr double kStaysNear = 0.6;
 /// A smaller share of a face, or of an edge, does not count, neither as near the other member nor as apart
 /// from it. Near the other member, a smaller part counts if its mean width exceeds the window or, along an
-/// edge, if it is longer than `kCorner` windows.
+/// edge, if it is longer than `kAround` windows.
 constexpr double kPart = 0.05;
-/// Two vertices of two rims correspond if their distance is at most this many times the distance of the rims.
-/// At corners of 30°, corresponding vertices are nearly four times as far apart as the sides.
-constexpr double kCorner = 4;
 
 /// Vertices of a face's rim, without the start points of closed edges.
 std::vector<Vec3> corners_of(const Model& model, FaceId face)
@@ -246,7 +239,7 @@ private:
                 most = std::max(most, distance);
             }
             if (!(within > 0) || within < kStaysNear * all ||
-                (within < kCorner * pair_.window && within < kPart * arc.back()))
+                (within < kAround * pair_.window && within < kPart * arc.back()))
                 continue;
             const FaceId face = uses.front().face;
             const bool of_a = own == pair_.a;
@@ -287,7 +280,8 @@ double near_window(const AssemblyMember& a, const AssemblyMember& b)
 {
     const double tolerance = pair_tolerance(a, b);
     const double smaller = std::min(a.volume->model.diagonal, b.volume->model.diagonal);
-    return std::max(tolerance, std::min(kNearMiss * tolerance, kWidest * smaller));
+    // A gap wider than half of the largest tolerance that a model can have is intended.
+    return std::max(tolerance, std::min(kNearMiss * tolerance, kMostTolerance / 2 * smaller));
 }
 
 double corners_apart(const Model& a, FaceId face_a, const Model& b, FaceId face_b, double at_least)
@@ -298,7 +292,8 @@ double corners_apart(const Model& a, FaceId face_a, const Model& b, FaceId face_
         for (const Vec3& p : from) {
             double nearest = kInfinity;
             for (const Vec3& q : to) nearest = std::min(nearest, (p - q).norm());
-            if (nearest <= kCorner * at_least) apart = std::max(apart, nearest);
+            // At corners of 30°, vertices are nearly four times as far apart as the sides.
+            if (nearest <= kAround * at_least) apart = std::max(apart, nearest);
         }
     };
     add(own, others);

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/topology/shared/give_mesh.h>
@@ -36,10 +37,6 @@ double shortest_side(const FaceMesh& mesh)
                 least = std::min(least, (mesh.places[index(a)] - mesh.places[index(b)]).norm());
     return least;
 }
-
-/// Corresponding nodes of two faces with the same quad connectivity coincide if their distance is less than
-/// this share of the shortest side. No other pair of nodes is that close.
-constexpr double kNearImage = 0.25;
 
 [[noreturn]] void refuse_images(const ImagesOf& all, const PeriodicFaces& pair, bool given)
 {
@@ -123,7 +120,7 @@ SettledNodes tie_images(const ImagesOf& all, std::size_t m, const std::set<FaceI
         for (Vec3& p : from.places) p = pair.onto * p;
         const bool both = fixed.contains(pair.face_a) && fixed.contains(pair.face_b);
         const auto same = same_quads(
-            from, to, both ? tolerance : kNearImage * std::min(shortest_side(from), shortest_side(to)));
+            from, to, both ? tolerance : kOnePoint * std::min(shortest_side(from), shortest_side(to)));
         if (!same) refuse_images(all, pair, both);
         for (const NodePair& nodes_of : *same)
             ties.push_back({add(nodes_of.own), add(nodes_of.other), &pair.onto});
@@ -147,7 +144,7 @@ void pair_nodes(const ImagesOf& all, SweptAssembly& result, const RunContext& co
         const FaceMesh corners = face_mesh(part_a.skin(), quads_on(part_a.mesh, part_a.faces, pair.face_a));
         // The allowed distance is not zero: nodes given for the two faces may differ by the tolerance,
         // and middle nodes by the sag of the facets.
-        const std::vector<Index> twin = same_places(moved, places, kNearImage / 4 * shortest_side(corners));
+        const std::vector<Index> twin = same_places(moved, places, kOnePoint / 4 * shortest_side(corners));
         if (twin.empty()) refuse_images(all, pair, false);
         bool changed = false;
         for (std::size_t n = 0; n < from.size(); ++n) {

@@ -21,10 +21,6 @@ using namespace topology;
 
 namespace {
 
-/// Number of chords by which the turning of a column is measured: few enough to ignore local dents, and
-/// enough to resolve the bends of a sweep. Not measured.
-constexpr std::size_t kTurnChords = 8;
-
 /// Values averaged over the columns between both rims.
 struct Columns {
     double length = 0;
@@ -39,13 +35,13 @@ struct Columns {
 /// estimated from their neighbours.
 double turning_of(const std::vector<Vec3>& points)
 {
-    const std::size_t step = (points.size() - 1) / kTurnChords;
+    const std::size_t step = (points.size() - 1) / kChords;
     double sum = 0;
     for (std::size_t i = step; i + step < points.size(); i += step) {
         const Vec3 in = points[i] - points[i - step], out = points[i + step] - points[i];
         sum += geometry::angle_between(in, out);
     }
-    return sum * kTurnChords / (kTurnChords - 1);
+    return sum * kChords / (kChords - 1);
 }
 
 /// @param middle  size in the middle of a column. @param size  size along the columns; null: constant.

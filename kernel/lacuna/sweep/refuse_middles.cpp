@@ -70,7 +70,6 @@ void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mes
     // The bend of a side, relative to its length, is proportional to the length, so a cell of `share` times
     // the size is valid. The suggestion is a tenth smaller.
     const double share = kSuggestedShare * valid_share(quality::hex27_of(mesh, cell));
-    constexpr std::size_t kFirstUpright = 16;
     const Hex hex = mesh.hex(cell);
     std::array<Vec3, 8> corners;
     for (std::size_t c = 0; c < 8; ++c) corners[c] = mesh.nodes[index(hex[c])];
@@ -85,7 +84,8 @@ void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mes
     if (straight < kPoorCell)
         throw NotSweepable(std::move(refusal).remedy(
             "the cell is already poor with straight sides: its scaled Jacobian is {:.2g}", found(straight)));
-    if (*worst < kFirstUpright)
+    const Segment& ends = mesh::kHexEdges[*worst - 8];
+    if (ends[0] / 4 == ends[1] / 4) // an edge of a quad
         throw NotSweepable(
             std::move(refusal).remedy("use a size of {:.2g}, which fits the bend", needed(share * side)));
     const int layers = share > 0 ? static_cast<int>(std::ceil(mesh.layers / share)) : 2 * mesh.layers;

@@ -13,11 +13,6 @@ using namespace topology;
 
 namespace {
 
-/// Assumed relative error of an arc's height. It decides how far apart two rims that approximate one curve
-/// may be. Even for seven chords, the height of a parabola differs by a tenth from that of a circle; for
-/// curves that bend unevenly, heights differ more. Not measured.
-constexpr double kArcError = 0.25;
-
 /// Curvature vector at the point between two chords, which points to the inside of the bend. Empty at a
 /// corner.
 std::optional<Vec3> curvature(const Vec3& before, const Vec3& after, double least_cosine)

@@ -30,9 +30,6 @@ namespace {
 /// leave gaps next to the rim of a curved face. If two faces touch along a rim and curve away from each
 /// other, less than this share of either face is closer to the other face than the error of the facets.
 constexpr double kMostly = 0.5;
-/// The sag of chords is only an estimate. Points of one rim may be off the chords of the other rim by this
-/// many times the sag.
-constexpr double kRimSag = 1.5;
 /// A face prepared for comparison.
 struct Side {
     const OpenVolume* volume = nullptr;
@@ -86,7 +83,7 @@ RimOff rim_off(const Side& one, const Side& other)
 bool rim_lies_on(const Side& one, const Side& other, double tolerance)
 {
     const RimOff off = rim_off(one, other);
-    return off.distance <= tolerance + kRimSag * off.sag;
+    return off.distance <= tolerance + (1 + kArcError) * off.sag;
 }
 
 bool is_void(const Side& side) { return side.face_data().origin == Origin::made_void; }
@@ -120,7 +117,7 @@ bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& 
     RimOff off = rim_off(one, other);
     const RimOff back = rim_off(other, one);
     // If a rim was projected onto facets, its distance from its curve is that of these facets.
-    const double slack = std::max(tolerance + kRimSag * std::max(off.sag, back.sag), common.limit);
+    const double slack = std::max(tolerance + (1 + kArcError) * std::max(off.sag, back.sag), common.limit);
     if (back.distance > off.distance) off = back;
     if (off.distance <= tolerance) return true;
     const double by_arcs = arcs_apart(rim_chords(one.model(), one.face),

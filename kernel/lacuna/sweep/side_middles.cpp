@@ -6,6 +6,7 @@
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/surface/shared/projector.h>
+#include <lacuna/sweep/detail/compare_face.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +52,9 @@ public:
         const double whole = curve.arc.back();
         const auto [a, off_a] = position(curve, from);
         auto [b, off_b] = position(curve, to);
-        if (!(off_a < kNear * length && off_b < kNear * length && whole > 0)) return std::nullopt;
+        // Nodes on a curved edge may be off the chords of the edge by the sag of these chords.
+        const double near = kShareOfSide * length;
+        if (!(off_a < near && off_b < near && whole > 0)) return std::nullopt;
         const Edge& e = model_[edge];
         const bool closed = e.points.front() == e.points.back();
         if (closed && std::abs(b - a) > whole / 2) b += b < a ? whole : -whole;
@@ -62,10 +65,6 @@ public:
     }
 
 private:
-    /// Largest distance of a side's nodes from the edge on which the side lies, as a share of the side's
-    /// length. Nodes on a curved edge may be off the chords of the edge by the sag of these chords.
-    static constexpr double kNear = 0.1;
-
     struct Curve {
         geometry::FacetTree tree;
         std::vector<EdgeId> edge; ///< edge of each side in the tree

@@ -18,9 +18,6 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Number of step lengths that are tried around a node. Not measured.
-constexpr int kLengths = 3;
-
 const Vec3& at(std::span<const Vec3> points, Index i) { return points[index(i)]; }
 
 /// The tangential part of a move.
@@ -197,8 +194,9 @@ std::vector<std::size_t> SurfaceSmoother::poor_nodes(std::span<const Vec3> nodes
     return poor;
 }
 
-/// Trial position of a node: first the mean of its neighbours, then steps along the surface.
-Vec3 SurfaceSmoother::trial_place(std::size_t node, int trial, std::span<const Vec3> nodes,
+/// Trial position of a node: a step along the surface, in mean lengths of its sides; zero: the mean of its
+/// neighbours.
+Vec3 SurfaceSmoother::trial_place(std::size_t node, const Vec2& step, std::span<const Vec3> nodes,
                                   const Vec3& normal) const
 {
     const std::span<const Index> neighbours = graph_.of(node);
@@ -208,14 +206,10 @@ Vec3 SurfaceSmoother::trial_place(std::size_t node, int trial, std::span<const V
         mean += at(nodes, n) / static_cast<double>(neighbours.size());
         side += (at(nodes, n) - nodes[node]).norm() / static_cast<double>(neighbours.size());
     }
-    if (trial == 0 || !(normal.norm() > 0)) return mean;
-    // Steps of 1/4, 1/16 and 1/64 of the mean side, in eight directions.
-    const auto directions = static_cast<int>(geometry::all_around().size());
-    const double length = side * std::pow(0.25, 1 + (trial - 1) / directions);
-    const Vec2& way = geometry::all_around()[index((trial - 1) % directions)];
+    if (step.isZero(0) || !(normal.norm() > 0)) return mean;
     const Vec3 u = normal.unitOrthogonal();
     const Vec3 v = normal.normalized().cross(u);
-    return nodes[node] + length * (way.x() * u + way.y() * v);
+    return nodes[node] + side * (step.x() * u + step.y() * v);
 }
 
 /// One round of trials for the nodes of poor quads. @return  whether any node moved.
@@ -227,10 +221,13 @@ bool SurfaceSmoother::polish_once(std::vector<Vec3>& nodes, double good_enough) 
 
     bool moved = false;
     std::vector<Vec3> places(poor.size());
-    const auto directions = static_cast<int>(geometry::all_around().size());
-    for (int trial = 0; trial <= directions * kLengths; ++trial) {
+    std::vector<Vec2> steps{Vec2::Zero()};
+    for (double share = geometry::kLongestStep; share >= geometry::kShortestStep;
+         share *= geometry::kLongestStep)
+        for (const Vec2& way : geometry::all_around()) steps.emplace_back(share * way);
+    for (const Vec2& step : steps) {
         for (std::size_t k = 0; k < poor.size(); ++k) {
-            places[k] = trial_place(poor[k], trial, nodes, normals[poor[k]]);
+            places[k] = trial_place(poor[k], step, nodes, normals[poor[k]]);
         }
         project_(places);
         for (std::size_t k = 0; k < poor.size(); ++k) {

@@ -8,6 +8,7 @@
 #include <lacuna/surface/shared/rim_breaks.h>
 #include <lacuna/surface/shared/shape_size.h>
 #include <lacuna/surface/shared/wall_columns.h>
+#include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -30,9 +31,6 @@ namespace {
 /// sweep, if there is such curvature. The total must stay below 1 %; the margin covers effects that the model
 /// ignores.
 constexpr double kAllLost = 0.008, kLostByEnds = 0.002, kLostByLayers = 0.003;
-/// Maximum number of sides per full turn. An inscribed polygon of 100 sides lacks 0.07 % of the circle's
-/// area.
-constexpr int kMostPerTurn = 100;
 /// Creases across an end get nodes if this needs at most this many sides per turn. If more are needed, the
 /// creases are taken for mere borders of fine facets, and a smaller size is used instead.
 constexpr int kMostForCreases = 40;
@@ -48,13 +46,9 @@ constexpr double kSteepest = 2;
 /// So that a grid fits, the rim of an end may have fewer sides than the size requires, for example 16 instead
 /// of 24. The wall model therefore uses the size times this factor.
 constexpr double kFewer = 1.5;
-/// Factor between the sizes that are tried.
-constexpr double kSmaller = 0.9;
-/// Maximum number of layers because of curvature along the sweep: enough for a spiral of five turns.
-constexpr int kMostLayers = 300;
-/// Resolution of the wall model: number of columns along a whole rim. A polygon of 128 sides lacks 0.04 % of
-/// the circle's area.
-constexpr double kColumns = 128;
+/// Resolution of the wall model: number of columns along a whole rim. A mesh with more sides per turn is not
+/// planned. A polygon of 128 sides lacks 0.04 % of the circle's area.
+constexpr int kColumns = 128;
 
 double lost_by(double turn, double side) { return turn * side * side / 12; }
 
@@ -294,7 +288,7 @@ public:
         Sides sides{options_.curvature};
         const double quads = area_of(volume_, Role::source) / std::pow(size_(volume_.model.points[0]), 2);
         const double least = std::min(kLeastPart, std::sqrt(quads / kMostForEnds));
-        if (is_enough(sides) || is_enough({kMostPerTurn})) {
+        if (is_enough(sides) || is_enough({kColumns})) {
             while (!is_enough(sides)) ++sides.per_turn;
             const int enough = sides.per_turn; // enough if creases across an end get no nodes
             while (ends_ > kLostByEnds && sides.per_turn < std::max(enough, kMostForCreases)) {
@@ -303,7 +297,7 @@ public:
             }
             if (ends_ > kLostByEnds) sides.per_turn = enough;
         } else { // the walls bend more than their rims, so more sides of the rims do not help
-            while (sides.part > least && !is_enough(sides)) sides.part *= kSmaller;
+            while (sides.part > least && !is_enough(sides)) sides.part *= kSuggestedShare;
         }
         is_enough(sides);
         find_walls();
@@ -329,7 +323,7 @@ public:
         for (double lost = lost_by_numbers(sides); lost > share;) {
             const int more = std::max(sides + sides / 4 + 1, wanted);
             const double left = lost_by_numbers(more);
-            if (more > kMostPerTurn || left > kHelps * lost) break;
+            if (more > kColumns || left > kHelps * lost) break;
             sides = more;
             lost = left;
         }
@@ -394,7 +388,8 @@ private:
         return [walls = walls_, sides, share](int least) {
             const double whole = walls->off(sides, 0);
             int count = least;
-            while (count < kMostLayers && std::abs(walls->off(sides, count) - whole) > share)
+            // More layers than the model has rows would not be more accurate.
+            while (count < kFineChords && std::abs(walls->off(sides, count) - whole) > share)
                 count += 1 + count / 16;
             return count;
         };

@@ -12,14 +12,6 @@
 
 namespace lacuna::topology {
 
-namespace {
-
-/// Smallest mean squared spread of the normals about their mean that defines an axis. It corresponds to a
-/// turn of a few degrees. Rule of thumb.
-constexpr double kLeastSpread = 1e-3;
-
-} // namespace
-
 FacetNormals facet_normals(const Model& model, FaceId face)
 {
     FacetNormals found;
@@ -48,7 +40,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     const auto [normals, areas] = facet_normals(model, id);
     if (normals.size() < 4) return {};
     const geometry::Spread spread = geometry::spread_of(normals, areas);
-    if (spread.square[0] > kOffShape || spread.square[1] < kLeastSpread) return {};
+    if (spread.square[0] > kOffShape || spread.square[1] < 2 * kFlatShare) return {};
     ConeShape cone;
     cone.axis = spread.axis.col(0);
     const double lean = std::abs(spread.centre.dot(cone.axis));

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/detail/cad_files.h>
 #include <lacuna/cad/detail/worker.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/exact.h>
 #include <lacuna/geometry/shared/plain_curve.h>
 #include <lacuna/topology/shared/left_out.h>
@@ -40,13 +41,12 @@ public:
     template <class Reply, class Make>
     Reply ask(cad_protocol::Opcode opcode, const Make& make, const Task& task) const
     {
-        constexpr int kTries = 3; // limits the restarts if the process is killed again and again
         for (int i = 0;; ++i) {
             const Held held = now();
             try {
                 return held.worker->ask<Reply>(opcode, make(held.handle), task);
             } catch (const WorkerGone&) {
-                if (i + 1 == kTries) throw;
+                if (i + 1 == kIdleRounds) throw; // the process is killed again and again
                 renew(held, *task.context);
             }
         }

@@ -8,6 +8,10 @@
 
 namespace lacuna {
 
+/// Largest number of threads: larger than the core count of any supported machine, and far below the thread
+/// limit of an operating system.
+inline constexpr int kMostThreads = 1024;
+
 /// Run `body(begin, end)` over [0, count), divided into ranges of at least `grain`, on the threads of the
 /// context.
 ///

@@ -63,12 +63,9 @@ struct Distortion {
 /// @param direction  direction of the line at the start; of length 1.
 Motion distorted(Motion motion, const Vec3& centre, const Vec3& direction, const Distortion& by);
 
-/// Add rows to `Motion::rows` until the motion turns by at most a full turn / `kRowsPerTurn` between two
+/// Add rows to `Motion::rows` until the motion turns by at most a full turn / `kFineChords` between two
 /// neighbouring rows.
 /// @param turn  turn between each level and the next [radian].
 void divide_turns(Motion& motion, const std::vector<double>& turn);
-
-/// Rows of facets per full turn, as in finely faceted CAD models: chords sag by 0.1 % of the radius.
-inline constexpr double kRowsPerTurn = 72;
 
 } // namespace lacuna::geometry

@@ -53,11 +53,11 @@ struct CoincidenceGrid {
     void visit(const Vec3& point, const Enter& enter) const
     {
         const Vec3 at = (point - corner) * per_length;
-        constexpr double kNear = 1.0 / 1024;
+        const double near = tolerance * per_length;
         std::int64_t low[3], high[3];
         for (int d = 0; d < 3; ++d) {
-            low[d] = static_cast<std::int64_t>(at[d] - kNear);
-            high[d] = static_cast<std::int64_t>(at[d] + kNear);
+            low[d] = static_cast<std::int64_t>(at[d] - near);
+            high[d] = static_cast<std::int64_t>(at[d] + near);
         }
         enter(hash(low[0], low[1], low[2]));
         if (low[0] == high[0] && low[1] == high[1] && low[2] == high[2]) return;

@@ -22,10 +22,6 @@ std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const RimColumns& c
 /// Newell area vector enclosed by the rim's sides, all loops summed.
 Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides);
 
-/// Rim residuals below this share of the mesh's shortest side are ignored: they change angles of cells by
-/// less than a hundredth of a degree.
-inline constexpr double kNegligible = 1e-4;
-
 /// Length of the shortest side of a quad [model length]; 0 for no quads.
 double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes);
 

@@ -11,6 +11,11 @@
 /// Edges of a face's rim, and the arcs that their chords approximate. Internal to this folder.
 namespace lacuna::sweep {
 
+/// Relative error of the height or sag of an arc that is estimated from chords. It decides how far apart two
+/// sets of chords of one curve may be. Even for seven chords, the height of a parabola differs by a tenth from
+/// that of a circle; for curves that bend unevenly, heights differ more.
+inline constexpr double kArcError = 0.25;
+
 /// The edges of a face's loops, without seams.
 std::set<EdgeId> rim_edges(const topology::Model& model, FaceId face);
 

@@ -54,7 +54,7 @@ private:
     [[nodiscard]] std::vector<std::size_t> poor_nodes(std::span<const Vec3> nodes,
                                                       std::span<const Vec3> normals,
                                                       double good_enough) const;
-    [[nodiscard]] Vec3 trial_place(std::size_t node, int trial, std::span<const Vec3> nodes,
+    [[nodiscard]] Vec3 trial_place(std::size_t node, const Vec2& step, std::span<const Vec3> nodes,
                                    const Vec3& normal) const;
     bool polish_once(std::vector<Vec3>& nodes, double good_enough) const;
 
