@@ -380,6 +380,23 @@ for _, x in ipairs { 55, 58 } do
   check.that(mesh.report.near_misses[1] == nil, "shares its part of the plate")
 end
 
+-- A band on a core, each of facets of its own fineness. The facets beside the cut along the first rim of the
+-- band are bent, and the cut along the second one crosses them.
+for _, sides in ipairs { { 22, 30 }, { 26, 30 }, { 34, 30 } } do
+  local round, members = { "round", 0, 0, 7 }, {}
+  local solids = { { low = 0, high = 30, outline = round },
+    { low = 10, high = 16, outline = { "square", 0, 0, 12, 13 }, holes = { { round } } } }
+  local whole = 0
+  for n, solid in ipairs(solids) do
+    local model = added(solid, sides[n])
+    members[n] = model:open_volume { name = "member_" .. n, faces = model:faces() }
+    whole = whole + volume(solid, sides[n])
+  end
+  local quality = lacuna.assembly(members):sweep({ size = 4 }):quality()
+  check.near(quality.volume, whole, 0.02 * whole)
+  check.that(quality.min_scaled_jacobian >= 0.3, table.concat(sides, " "))
+end
+
 -- Default sizes: a post does not make its plate fine.
 local posts = { ["Box(7) = {10, 10, 6, 3, 3, 8};"] = 2, ["Cylinder(7) = {10, 10, 6, 0, 0, 8, 2};"] = 6 }
 for post, most in pairs(posts) do

@@ -174,36 +174,40 @@ private:
     {
         const Vec3 target = model_.at(to);
         const std::size_t most = 4 * face().triangles.size() + 16;
+        Index before = -1;
         for (std::size_t step = 0; from != to; ++step) {
             if (step > most) return false;
-            const Index next = step_towards(from, to, target);
+            const Index next = step_towards(before, from, to, target);
             if (next < 0) return false;
             chain.push_back(next);
-            from = next;
+            before = std::exchange(from, next);
         }
         return true;
     }
 
-    Index step_towards(Index from, Index to, const Vec3& target)
+    /// @param before  the point from which the way came; -1: none. The way leaves its facets, and it may lead
+    ///                away from the target for a step, because facets beside another cut can be folded.
+    Index step_towards(Index before, Index from, Index to, const Vec3& target)
     {
         const Vec3 start = model_.at(from), way = target - start;
+        const auto is_ahead = [&](const Vec3& p) { return before >= 0 || (p - start).dot(way) > 0; };
         for (const Triangle& t : face().triangles) {
             if (std::ranges::find(t, from) != t.end() && std::ranges::find(t, to) != t.end()) return to;
         }
         for (const Triangle& t : face().triangles) {
             const auto k = static_cast<std::size_t>(std::ranges::find(t, from) - t.begin());
-            if (k == 3) continue;
+            if (k == 3 || (before >= 0 && std::ranges::find(t, before) != t.end())) continue;
             const Index a = t[(k + 1) % 3], b = t[(k + 2) % 3];
             const Vec3 normal = (model_.at(a) - start).cross(model_.at(b) - start);
             const Vec3 aside = way.cross(normal).stableNormalized();
             const double ha = (model_.at(a) - start).dot(aside), hb = (model_.at(b) - start).dot(aside);
             for (const auto& [corner, h] : {std::pair(a, ha), std::pair(b, hb)}) {
-                if (std::abs(h) <= tolerance_ && (model_.at(corner) - start).dot(way) > 0) return corner;
+                if (std::abs(h) <= tolerance_ && is_ahead(model_.at(corner))) return corner;
             }
             if (ha * hb >= 0) continue;
             const double f = ha / (ha - hb);
             const Vec3 there = (1 - f) * model_.at(a) + f * model_.at(b);
-            if ((there - start).dot(way) <= 0) continue;
+            if (!is_ahead(there)) continue;
             return point_on_side(model_, face_, a, b, f);
         }
         return -1;
