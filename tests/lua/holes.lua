@@ -360,12 +360,13 @@ local function box(name, x, half, height)
     model:add_face { name = name .. i, points = p, cells = { side } }
   end
 end
-box("out", 0, 4, 4)
-box("in", 0, 2, 3)
-box("loose", %g, 0.5, 0.5)
+local boxes = { { "out", 0, 4, 4 }, { "in", 0, 2, 3 } }
+table.insert(boxes, %d, { "loose", %g, 0.5, 0.5 })
+for _, one in ipairs(boxes) do box(table.unpack(one)) end
 local void = model:open_volume { %s }]]
-local function tells_of_body(x, roles, wanted)
-  check.write(folder .. "/recipe.lua", 'local lacuna = require "lacuna"\n' .. floating:format(x, roles))
+local function tells_of_body(x, roles, wanted, place)
+  check.write(folder .. "/recipe.lua",
+    'local lacuna = require "lacuna"\n' .. floating:format(place or 3, x, roles))
   local exit, _, err = check.run(params.lacuna, folder, { folder .. "/recipe.lua" })
   check.equal(exit, 0, err)
   local _, count = err:gsub('note: the body of face %d+ "loose%d" lies inside the volume', "")
@@ -377,6 +378,8 @@ for _, roles in ipairs { 'source = "in1", target = "in2", walls = "auto"',
   for _, x in ipairs { 0, 1, -1.2 } do tells_of_body(x, roles, 1) end
   for _, x in ipairs { 3, 10 } do tells_of_body(x, roles, 0) end
 end
+-- One whose tags are those of the void faces, too.
+for place = 1, 3 do tells_of_body(0, 'faces = { "in1", "in3", "in4" }', 1, place) end
 tells_of_body(0, 'source = { "in1", "loose2" }, target = { "in2", "loose1" }, ' ..
   'walls = { "in3", "in4", "in5", "in6", "loose3", "loose4", "loose5", "loose6" }', 0)
 

@@ -21,7 +21,7 @@ namespace {
 /// @param mouths  number of free loops of the cavity's faces.
 const char* word(VolumeClass value, std::size_t mouths)
 {
-    return value == VolumeClass::closed            ? "inner void"
+    return mouths == 0                             ? "inner void"
            : value == VolumeClass::IV              ? "pocket"
            : value == VolumeClass::V && mouths > 1 ? "bore"
                                                    : "slot";

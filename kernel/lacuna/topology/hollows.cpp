@@ -44,6 +44,19 @@ bool is_between_regions(const Model& model, const std::vector<FaceId>& shell)
                        [&](FaceId face) { return model[face].regions.size() > 1; });
 }
 
+/// The faces that bound one region alone. Faces between two regions of a mesh lie inside the solid.
+std::vector<FaceId> outer_faces(const Model& model)
+{
+    std::vector<FaceId> faces = all_faces(model);
+    std::erase_if(faces, [&](FaceId face) { return model[face].regions.size() > 1; });
+    return faces;
+}
+
+Model only(const Model& model, const std::vector<FaceId>& faces)
+{
+    return faces.size() == model.faces.size() ? model : extract(model, faces);
+}
+
 /// Flip the shells that lie inside an odd number of other shells: the space inside them is not part of the
 /// solid. @pre each shell faces outward. @return the flipped shells.
 std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
@@ -53,7 +66,7 @@ std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
     const std::vector<bool> inner = inner_parts(model, shells, context);
     std::vector<std::vector<FaceId>> turned;
     for (std::size_t s = 0; s < shells.size(); ++s) {
-        if (!inner[s] || is_between_regions(model, shells[s])) continue;
+        if (!inner[s]) continue;
         flip_faces(model, shells[s]);
         turned.push_back(shells[s]);
     }
@@ -161,7 +174,8 @@ void orient_skin(Model& model, const RunContext& context)
 
 std::vector<Hollow> hollows(const Model& given, const RunContext& context)
 {
-    Model model = given;
+    const std::vector<FaceId> outer = outer_faces(given);
+    Model model = only(given, outer);
     try {
         orient_consistently(model);
     } catch (const InvalidInput&) {
@@ -189,7 +203,9 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
                                       [&](FaceId face) { return model[face].kind == "plane"; });
         const double volume = -capped_volume(model, faces);
         if ((flat && faces.size() < 3) || !(volume > 0)) continue;
-        found.push_back({faces, rims(model, faces).size(), volume});
+        const std::size_t mouths = rims(model, faces).size();
+        for (FaceId& face : faces) face = outer[face.index()];
+        found.push_back({std::move(faces), mouths, volume});
     }
     return found;
 }
@@ -214,23 +230,29 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
 std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& faces,
                                  const RunContext& context)
 {
-    const bool open = std::ranges::any_of(faces, [&](FaceId face) {
-        const std::vector<Loop>& loops = given[face].loops; // no loops: closed by itself
-        return !loops.empty() && given.uses_of_edge(loops.front().uses.front().edge).size() != 2;
-    });
-    const std::vector<Hollow> found = open ? std::vector<Hollow>() : hollows(given, context);
+    const std::vector<FaceId> outer = outer_faces(given);
+    Model model = only(given, outer);
+    std::vector<FaceId> named; // the faces, in `model`
+    for (std::size_t f = 0; f < outer.size(); ++f)
+        if (std::ranges::count(faces, outer[f]) > 0) named.emplace_back(f);
+    const bool open = named.size() < faces.size() || std::ranges::any_of(named, [&](FaceId face) {
+                          const std::vector<Loop>& loops = model[face].loops; // no loops: closed by itself
+                          return !loops.empty() &&
+                                 model.uses_of_edge(loops.front().uses.front().edge).size() != 2;
+                      });
+    const std::vector<Hollow> found = open ? std::vector<Hollow>() : hollows(model, context);
     if (found.empty()) return {};
-    Model model = given;
     orient_consistently(model);
     const std::vector<std::size_t> first = joined_hollows(model, found);
     std::set<std::size_t> taken;
     for (std::size_t h = 0; h < found.size(); ++h)
-        if (std::ranges::find_first_of(found[h].faces, faces) != found[h].faces.end()) taken.insert(first[h]);
+        if (std::ranges::find_first_of(found[h].faces, named) != found[h].faces.end()) taken.insert(first[h]);
     std::vector<FaceId> cavity;
     for (std::size_t h = 0; h < found.size(); ++h)
         if (taken.contains(first[h])) std::ranges::copy(found[h].faces, std::back_inserter(cavity));
     if (cavity.empty()) return {};
     for (const FaceId face : enclosed_by(model, cavity, found)) cavity.push_back(face);
+    for (FaceId& face : cavity) face = outer[face.index()];
     std::sort(cavity.begin(), cavity.end());
     return cavity;
 }
@@ -239,7 +261,8 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
 {
     constexpr double kInside = 0.6; // above 0.5, the winding number of a point on the skin itself
     std::set<int> own;
-    for (const Face& face : volume.faces) own.insert(face.tag);
+    for (const Face& face : volume.faces)
+        if (face.origin == Origin::given) own.insert(face.tag);
     std::optional<geometry::FacetTree> tree; // built for the first other shell only: most models have none
     std::vector<FaceId> found;
     for (const std::vector<FaceId>& shell : closed_shells(model)) {
