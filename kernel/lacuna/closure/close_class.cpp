@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <ranges>
 #include <set>
 #include <utility>
@@ -173,10 +174,28 @@ bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
     return beside > kBetween * all;
 }
 
+/// The vector from the source up a side of its walls; empty: no edge of a wall leads away from the source.
+std::optional<Vec3> up_a_wall(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::set<VertexId> on_source;
+    for (const FaceId face : volume.faces(Role::source))
+        for (const EdgeUse& use : uses_of(model[face])) on_source.insert(use_from(model, use));
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        for (const EdgeUse& use : uses_of(model[wall])) {
+            if (!on_source.contains(use_from(model, use)) || on_source.contains(use_to(model, use))) continue;
+            const std::vector<Index> side = use_points(model, use);
+            return model.at(side.back()) - model.at(side.front());
+        }
+    }
+    return std::nullopt;
+}
+
 /// Refuse an edge of the source that has no wall. If only a narrow gap separates a wall from the edge, the
 /// remedy names the tolerance that closes the gap.
-[[noreturn]] void refuse_bare_edge(const Model& model, EdgeId edge, const RunContext& context)
+[[noreturn]] void refuse_bare_edge(const OpenVolume& volume, EdgeId edge, const RunContext& context)
 {
+    const Model& model = volume.model;
     for (const topology::Gap& gap : gaps(model, context)) {
         if (gap.own != edge && gap.other != edge) continue;
         throw NotClosed(Message("closure.wall_missing",
@@ -187,12 +206,17 @@ bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
                                     "{0:.3g} }} joins them",
                                     needed(sewing_tolerance(model, gap))));
     }
-    throw NotClosed(
-        Message("closure.wall_missing",
-                "{} of the source has no wall, and the tops of the given walls do not determine the "
-                "missing target there",
-                entity_of(model, edge))
-            .remedy("name the wall, or the target; 'along' sweeps a source alone"));
+    Message refusal("closure.wall_missing",
+                    "{} of the source has no wall, and the tops of the given walls do not determine the "
+                    "missing target there",
+                    entity_of(model, edge));
+    if (const std::optional<Vec3> way = up_a_wall(volume))
+        throw NotClosed(std::move(refusal).remedy(
+            "name the wall or the target, or let open_volume{{ …, along = {{ vector = {{{:.9g}, {:.9g}, "
+            "{:.9g}}} }} }} make both",
+            way->x(), way->y(), way->z()));
+    throw NotClosed(std::move(refusal).remedy("name the wall or the target, or let open_volume{{ …, along = "
+                                              "{{ vector = {{x, y, z}} }} }} make both"));
 }
 
 /// Close class IV by eq. (3) and (4) of the paper: the free loops of source and walls bound the target.
@@ -208,7 +232,7 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     for (const Rim& rim : open) {
         for (const EdgeUse& use : rim.uses) {
             if (volume.role[model.uses_of_edge(use.edge).front().face.index()] != Role::source) continue;
-            refuse_bare_edge(model, use.edge, tools.context);
+            refuse_bare_edge(volume, use.edge, tools.context);
         }
         if (open.size() > wanted && is_hole_of_walls(volume, rim))
             holes.push_back({reversed(rim)});

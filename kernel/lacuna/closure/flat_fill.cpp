@@ -132,6 +132,8 @@ bool prove(FlatFilling& filling, const RunContext& context)
 {
     OpenVolume& volume = filling.volume;
     volume.model = with_loops(std::move(volume.model), context);
+    for (std::size_t e = 0; e < volume.model.edges.size(); ++e)
+        if (volume.model.uses_of_edge(EdgeId(e)).size() > 2) return false; // no skin, and not to be oriented
     orient_consistently(volume.model);
     filling.closure.watertight = is_watertight(volume) && !first_crossing(volume, context);
     return filling.closure.watertight;

@@ -105,6 +105,12 @@ closure::Closed with_given_walls(closure::Closed closed, const topology::Model& 
     const std::vector<Triangle> facets = topology::facets_of(walls, topology::all_faces(walls));
     const geometry::FacetTree given(walls.points, facets);
     const auto is_on = [&](const Vec3& p) { return (given.closest(p).point - p).norm() <= tolerance; };
+    // The sides of a wall that is missing between given ones lie on these, so middles of segments count, too.
+    const auto is_rim_on = [&](const std::vector<Vec3>& rim) {
+        for (std::size_t i = 0; i < rim.size(); ++i)
+            if (!is_on(rim[i]) || !is_on((rim[i] + rim[(i + 1) % rim.size()]) / 2)) return false;
+        return true;
+    };
     std::vector<FaceId> kept;
     std::vector<Role> roles;
     std::vector<Vec3> ends; // end points of the segments around the walls that are replaced
@@ -112,7 +118,7 @@ closure::Closed with_given_walls(closure::Closed closed, const topology::Model& 
     for (const FaceId face : topology::all_faces(swept)) {
         const auto rims = rims_of(swept, face);
         const Role role = closed.volume.role[face.index()];
-        if (role != Role::wall || !std::ranges::all_of(rims | std::views::join, is_on)) {
+        if (role != Role::wall || !std::ranges::all_of(rims, is_rim_on)) {
             kept.push_back(face);
             roles.push_back(role);
             continue;

@@ -9,6 +9,7 @@
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -403,6 +404,41 @@ void flip_faces(Model& model, const std::vector<FaceId>& faces)
     model = std::move(builder).finish();
 }
 
+namespace {
+
+/// The faces beside a closed skin: those with a free edge, and then those to which their removal leaves one.
+/// @param one  a face of the skin, or connected to it
+/// @return  empty if no skin with two faces at each edge is left.
+std::vector<FaceId> hanging_faces(const Model& model, FaceId one)
+{
+    std::vector<std::size_t> uses(model.edges.size());
+    for (std::size_t e = 0; e < uses.size(); ++e) uses[e] = model.uses_of_edge(EdgeId(e)).size();
+    const auto has_edge_of = [&](FaceId face, const auto& number_is) {
+        return std::ranges::any_of(uses_of(model[face]),
+                                   [&](const EdgeUse& use) { return number_is(uses[use.edge.index()]); });
+    };
+    std::vector<FaceId> hanging, rest;
+    for (std::vector<FaceId>& part : connected_parts(model, all_faces(model)))
+        if (std::ranges::count(part, one) > 0) rest = std::move(part);
+    for (bool more = true; more;) {
+        const auto loose = std::stable_partition(rest.begin(), rest.end(), [&](FaceId face) {
+            return !has_edge_of(face, [](std::size_t number) { return number == 1; });
+        });
+        more = loose != rest.end();
+        for (auto face = loose; face != rest.end(); ++face)
+            for (const EdgeUse& use : uses_of(model[*face])) --uses[use.edge.index()];
+        hanging.insert(hanging.end(), loose, rest.end());
+        rest.erase(loose, rest.end());
+    }
+    const bool closed = !rest.empty() && std::ranges::none_of(rest, [&](FaceId face) {
+        return has_edge_of(face, [](std::size_t number) { return number != 2; });
+    });
+    if (!closed) hanging.clear();
+    return hanging;
+}
+
+} // namespace
+
 void orient_consistently(Model& model)
 {
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
@@ -410,11 +446,16 @@ void orient_consistently(Model& model)
         if (uses.size() <= 2) continue;
         std::vector<NamedEntity> faces;
         for (const FaceUse& use : uses) faces.push_back(entity_of(model, use.face));
-        throw InvalidInput(
-            Message("topology.not_manifold",
-                    "{} is shared by {} faces ({}), but the skin of a volume has {} at each edge",
-                    entity_of(model, EdgeId(e)), found(uses.size()), faces, needed(2))
-                .remedy("leave the other faces out"));
+        Message refusal("topology.not_manifold",
+                        "{} is shared by {} faces ({}), but the skin of a volume has {} at each edge",
+                        entity_of(model, EdgeId(e)), found(uses.size()), faces, needed(2));
+        const std::vector<FaceId> hanging = hanging_faces(model, uses.front().face);
+        if (hanging.empty())
+            throw InvalidInput(
+                std::move(refusal).remedy("name the faces round one space: open_volume{{ faces = … }}"));
+        throw InvalidInput(std::move(refusal).remedy("leave out {}: without {}, the skin is closed",
+                                                     entities_of(model, hanging),
+                                                     hanging.size() == 1 ? "it" : "them"));
     }
 
     std::vector<bool> settled(model.faces.size(), false), flipped(model.faces.size(), false);
