@@ -234,19 +234,26 @@ Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunConte
 constexpr double kWanted = 0.006;
 
 /// Report the volume difference, and the 'size' and 'layers' that should keep it within 1 %. The error of
-/// straight sides grows with the square of their length.
-std::string volume_in_words(const Swept& swept)
+/// straight sides grows with the square of their length. A size does not change quads that are kept.
+std::string volume_in_words(const Swept& swept, const OpenVolume& volume, const SweepOptions& options)
 {
     const double lost = volume_lost(swept.fidelity), part = std::sqrt(kWanted / std::abs(lost));
     double length = 0;
     for (const Segment& side : swept.mesh.rim)
         length += (swept.mesh.nodes[index(side[1])] - swept.mesh.nodes[index(side[0])]).norm();
+    const bool keeps = (options.quads == Quads::automatic || options.quads == Quads::keep) &&
+                       std::ranges::any_of(volume.faces(Role::source), [&](FaceId face) {
+                           return !volume.model[face].given_quads.empty();
+                       });
     return formatted(
-        "the mesh has {:.2g} % {} volume than the sealed shape; size = {:.2g} and layers = {} should keep "
-        "the difference within 1 %",
-        100 * std::abs(lost), lost > 0 ? "less" : "more",
+        "the mesh has {:.2g} % {} volume than the sealed shape; {}size = {:.2g} and layers = {} should keep "
+        "the difference within 1 %{}",
+        100 * std::abs(lost), lost > 0 ? "less" : "more", keeps ? "quads = \"paved\", " : "",
         part * length / static_cast<double>(swept.mesh.rim.size()),
-        static_cast<int>(std::ceil(swept.mesh.layers / part)));
+        static_cast<int>(std::ceil(swept.mesh.layers / part)),
+        keeps ? ", or the layers alone if the bends are along the sweep: the given quads of the source are "
+                "kept, whatever the size"
+              : "");
 }
 
 /// Suggest what to do about poor cells.
@@ -267,7 +274,8 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     Swept swept = search(volume, options, context);
     if (swept.min_scaled_jacobian < kPoorCell)
         swept.notes.push_back(poor_in_words(swept.min_scaled_jacobian));
-    if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted) swept.notes.push_back(volume_in_words(swept));
+    if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted)
+        swept.notes.push_back(volume_in_words(swept, volume, options));
     for (const std::string& note : swept.notes) swept.report.push_back("note: " + note);
     if (asked.beside.settle) return swept;
     for (const std::string& line : swept.defaults) log_line(context, line);
