@@ -158,7 +158,6 @@ struct FacePattern {
     int rows = 1;
     int steps = 0; ///< number of rows by which the outer loop of a ring steps inward where the ring is narrow
     int corners = 0; ///< number of nodes at which rows of a ring change their number of sides
-    TurnStyle style = TurnStyle::soft;
     int across = 0; ///< number of rows between the loops of a ring; 0: as many as the size gives
 };
 
@@ -238,7 +237,7 @@ private:
 
     bool head(std::size_t l, const LoopFrame& frame, int turns)
     {
-        auto headed = head_loop(region_.points, region_.loops[l], frame, pattern_.style);
+        auto headed = head_loop(region_.points, region_.loops[l], frame);
         if (!headed) return false;
         set_soft_rows(*headed, pattern_.rows);
         loops_[l] = std::move(*headed);
@@ -437,24 +436,19 @@ std::vector<std::size_t> lone_corners(const PlanarRegion& region)
 class PatternTrial {
 public:
     PatternTrial(const PlanarRegion& region, const RunContext& context)
-        : region_(region),
-          context_(context),
-          size_(paving::size_with_boundary(region)),
-          has_half_ends_(has_half_ends(region))
+        : region_(region), context_(context), size_(paving::size_with_boundary(region))
     {
     }
 
     void run()
     {
         for (std::size_t l = 1; l < region_.loops.size() && !is_fine_; ++l) try_round(l);
-        if (!is_fine_) try_straight(TurnStyle::soft);
-        if (!is_square_ && has_half_ends_) try_straight(TurnStyle::hard_ends);
-        if (!is_square_ && has_doubtful_turns(region_)) try_straight(TurnStyle::few_soft);
+        if (!is_fine_) try_straight();
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
-    /// The meshes that were found. The number of quads matters if the region has no holes, or has ends of
-    /// 135°. Then only meshes with about the requested number are returned, if there are any.
+    /// The meshes that were found. If the region has no holes, only meshes with about the requested number of
+    /// quads are returned, if there are any.
     std::vector<PlanarQuads> take()
     {
         std::vector<PlanarQuads> fit;
@@ -477,23 +471,23 @@ private:
     }
 
     /// Try straight grid lines.
-    void try_straight(TurnStyle style)
+    void try_straight()
     {
         const std::size_t before = made_.size();
-        for (const int rows : rows_to_try(fitting_rows(style))) {
+        for (const int rows : rows_to_try(fitting_rows())) {
             if (is_fine_ || (is_square_ && made_.size() >= before + kCandidates)) return;
-            const PatternFiller filler = fill({0, rows, 0, 0, style});
+            const PatternFiller filler = fill({0, rows});
             if (filler.turns() == 0) return; // the number of rows has no effect without soft turns
         }
     }
 
     /// Number of rows that suits the soft turns of all loops in a straight grid.
-    [[nodiscard]] int fitting_rows(TurnStyle style) const
+    [[nodiscard]] int fitting_rows() const
     {
         const LoopFrame frame = straight_frame(region_);
         int most = 1;
         for (const Cycle& loop : region_.loops) {
-            const auto headed = head_loop(region_.points, loop, frame, style);
+            const auto headed = head_loop(region_.points, loop, frame);
             if (headed) most = std::max(most, quads::fitting_rows(*headed));
         }
         return most;
@@ -523,12 +517,11 @@ private:
 
     void keep(PlanarQuads mesh)
     {
-        // Scaled Jacobians of the worst quad at which parts of the search end. Above kSquare, hard ends of
-        // 135° and rows that change their number of quads are not tried. Above kFine, if also the share of
+        // Scaled Jacobians of the worst quad at which parts of the search end. Above kSquare, rows that change their number of quads are not tried. Above kFine, if also the share of
         // good rows is above kPromisedShare, nothing else is tried. Meshes of discs never exceed kFine.
         constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
-        const bool decides = has_half_ends_ || region_.loops.size() == 1;
+        const bool decides = region_.loops.size() == 1;
         fits_.push_back(!decides || paving::has_quads_asked(made_.back(), size_) ? 1 : 0);
         if (!fits_.back()) return;
         const PlaneQuality quality = measure_plane(made_.back(), region_);
@@ -550,7 +543,6 @@ private:
     std::vector<PlanarQuads> made_;
     /// For each mesh, whether it has the requested number of quads, or this number does not matter.
     std::vector<char> fits_;
-    const bool has_half_ends_;
     bool is_square_ = false; ///< whether some mesh has nearly square quads
     bool is_fine_ = false;   ///< whether some mesh also has good rows
 };

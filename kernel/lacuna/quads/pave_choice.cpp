@@ -154,9 +154,6 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region, bool few)
     constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0};
     const Limits& limits = few ? kGoodFew : kGood;
     if (attempt.worst < limits.least || !find_fault(attempt.mesh, region).empty()) return false;
-    // At nodes where images meet, on an axis or at the centre, each image may add one quad too many.
-    constexpr Index kMostQuads = 6;
-    if (std::ranges::max(valences(attempt.mesh.quads, attempt.mesh.points.size())) > kMostQuads) return false;
     return reaches(limits, attempt, region) && has_quads_asked(attempt.mesh, region.size);
 }
 

@@ -36,10 +36,6 @@ namespace lacuna::quads {
 /// rows only. Slots, rounded rectangles, plates with holes, and flanges get one grid each, with four
 /// irregular nodes for each round loop.
 ///
-/// Ends of 135° (nodes halfway between an end and a side, see `TurnStyle`) are tried as soft turns first.
-/// Unless this gives a mesh of nearly square quads, they are tried as hard turns. After that, headings with
-/// fewer soft turns that fit almost as well are tried (`TurnStyle::few_soft`), for example at the blunt end
-/// of a slit.
 /// @return  valid meshes, the most promising first: meshes with grid lines around a hole, then meshes with
 ///         straight grid lines, both in order of their number of rows. The search stops after a mesh that
 ///         cannot be improved much. Empty if the numbers of sides fit no grid, or quads would fold.
