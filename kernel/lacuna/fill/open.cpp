@@ -12,6 +12,7 @@
 #include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/members.h>
 #include <lacuna/fill/detail/touching_parts.h>
+#include <lacuna/io/shared/deck_materials.h>
 #include <lacuna/topology/shared/auto_walls.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/hollows.h>
@@ -493,13 +494,31 @@ Volume open_named(const Model& model, const RoleRequest& request, const RunConte
     return open_joined(model, request, context);
 }
 
+/// Log a material that no deck of the model defines: writing the mesh with the deck refuses it, which a user
+/// should know before meshing.
+void note_unknown_material(const RoleRequest& request, const RunContext& context)
+{
+    if (request.material.empty()) return;
+    for (const auto& deck : request.decks)
+        if ((deck->format != io::DeckFormat::abaqus && deck->format != io::DeckFormat::nastran) ||
+            io::has_material(*deck, request.material))
+            return;
+    for (const auto& deck : request.decks)
+        log_line(
+            context,
+            formatted("note: material = {}: {} has {}, so 'with' of mesh:write will not add the mesh to it",
+                      request.material, deck->path, io::materials_in_words(*deck)));
+}
+
 } // namespace
 
 Volume open(const Model& model, const RoleRequest& request, const RunContext& context)
 {
-    return unless_faces_cross(model, named_faces(model, request), context, [&] {
+    Volume volume = unless_faces_cross(model, named_faces(model, request), context, [&] {
         return open_named(model, without_repeats(model, request, context), context);
     });
+    note_unknown_material(request, context);
+    return volume;
 }
 
 } // namespace lacuna::fill

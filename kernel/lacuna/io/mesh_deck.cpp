@@ -9,6 +9,7 @@
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
+#include <lacuna/io/shared/deck_materials.h>
 
 #include <algorithm>
 #include <map>
@@ -479,12 +480,13 @@ private:
             }
             log_line(
                 context_,
-                formatted("{}{}: its material is {}, that of {} beside it{}; to use another, set the option "
-                          "material of open_volume",
-                          lost.empty() ? "" : "note: ", volume(), material_, added_.neighbour,
-                          lost.empty() ? ""
-                                       : formatted(", while elements that were left out have {}",
-                                                   full_list(lost, std::identity()))));
+                formatted(
+                    "note: {}: its material is {}, that of {} beside it{}; to use another, set the option "
+                    "material of open_volume",
+                    volume(), material_, added_.neighbour,
+                    lost.empty() ? ""
+                                 : formatted(", while elements that were left out have {}",
+                                             full_list(lost, std::identity()))));
             return;
         }
         if (const auto found = find_word(known, material_); found != known.end()) {
@@ -492,8 +494,7 @@ private:
             return;
         }
         throw InvalidInput("io.no_material", "material = {}: {} has {}", material_, deck_.path,
-                           known.empty() ? "no materials"
-                                         : formatted("the materials {}", short_list(known, std::identity())));
+                           materials_in_words(deck_));
     }
     /// Report the types of hexahedra that were left out, if the new ones are of another type.
     void tell_lost_elements() const
@@ -569,6 +570,18 @@ void add_mesh(Deck& deck, const mesh::TetPart& mesh, const AddedMesh& added, con
               const RunContext& context)
 {
     MeshAdder(deck, TetParts{mesh}, added, options, context).add();
+}
+
+bool has_material(const Deck& deck, const std::string& material)
+{
+    const std::vector<std::string> known = materials_in_text(deck);
+    return find_word(known, material) != known.end();
+}
+
+std::string materials_in_words(const Deck& deck)
+{
+    const std::vector<std::string> known = materials_in_text(deck);
+    return known.empty() ? "no materials" : formatted("the materials {}", short_list(known, std::identity()));
 }
 
 } // namespace lacuna::io
