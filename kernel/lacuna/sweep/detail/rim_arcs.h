@@ -12,8 +12,8 @@
 namespace lacuna::sweep {
 
 /// Relative error of the height or sag of an arc that is estimated from chords. It decides how far apart two
-/// sets of chords of one curve may be. Even for seven chords, the height of a parabola differs by a tenth from
-/// that of a circle; for curves that bend unevenly, heights differ more.
+/// sets of chords of one curve may be. Even for seven chords, the height of a parabola differs by a tenth
+/// from that of a circle; for curves that bend unevenly, heights differ more.
 inline constexpr double kArcError = 0.25;
 
 /// The edges of a face's loops, without seams.
