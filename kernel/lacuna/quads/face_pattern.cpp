@@ -517,8 +517,9 @@ private:
 
     void keep(PlanarQuads mesh)
     {
-        // Scaled Jacobians of the worst quad at which parts of the search end. Above kSquare, rows that change their number of quads are not tried. Above kFine, if also the share of
-        // good rows is above kPromisedShare, nothing else is tried. Meshes of discs never exceed kFine.
+        // Scaled Jacobians of the worst quad at which parts of the search end. Above kSquare, rows that
+        // change their number of quads are not tried. Above kFine, if also the share of good rows is above
+        // kPromisedShare, nothing else is tried. Meshes of discs never exceed kFine.
         constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
         const bool decides = region_.loops.size() == 1;
