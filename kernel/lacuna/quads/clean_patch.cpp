@@ -3,9 +3,17 @@
 
 namespace lacuna::quads::cleaning {
 
-void PatchGrower::start(Index seed, std::size_t others, std::size_t points)
+namespace {
+
+/// Maximum number of points that are visited in the search for irregular points around a seed. It limits the
+/// distance over which irregular points are paired.
+constexpr std::size_t kLookedAt = 900;
+
+} // namespace
+
+void PatchGrower::start(Index seed, std::size_t others)
 {
-    look_for_others(seed, others, points);
+    look_for_others(seed, others);
     patch_.quads.clear();
     patch_.touched.clear();
     in_patch_.clear(mesh_.net().quad_slots());
@@ -13,7 +21,7 @@ void PatchGrower::start(Index seed, std::size_t others, std::size_t points)
     add_star(seed);
 }
 
-void PatchGrower::look_for_others(Index seed, std::size_t most, std::size_t points)
+void PatchGrower::look_for_others(Index seed, std::size_t most)
 {
     const QuadNet& net = mesh_.net();
     others_.clear();
@@ -21,7 +29,7 @@ void PatchGrower::look_for_others(Index seed, std::size_t most, std::size_t poin
     parent_[seed] = -1;
     std::vector<Index>& queue = seen_points_;
     queue.assign(1, seed);
-    for (std::size_t i = 0; i < queue.size() && queue.size() < points && others_.size() < most; ++i) {
+    for (std::size_t i = 0; i < queue.size() && queue.size() < kLookedAt && others_.size() < most; ++i) {
         const Index here = queue[i];
         const auto see = [&](Index p) {
             if (parent_.has(p)) return;

@@ -106,9 +106,8 @@ bool Cleaner::refill(const QuadPatch& patch)
 /// mesh.
 bool Cleaner::improve(Index seed)
 {
-    const auto most = static_cast<std::size_t>(options_.largest_patch);
-    grower_.start(seed, limits_.growths, most);
-    const std::size_t largest = std::min(limits_.largest, most);
+    grower_.start(seed, limits_.growths);
+    const std::size_t largest = std::min(limits_.largest, static_cast<std::size_t>(options_.largest_patch));
     for (std::size_t growth = 0; growth <= grower_.others().size(); ++growth) {
         if (growth > 0 && !grower_.grow_to(grower_.others()[growth - 1])) continue;
         const PatchState outline = grower_.close(largest);

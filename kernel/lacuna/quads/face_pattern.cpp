@@ -410,13 +410,12 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeFiel
     return patterns;
 }
 
-/// Whether nearly all quads of a mesh are square and have the requested size, and the rows along the boundary
-/// are good. With higher bounds, the search continues more often and finds better meshes, but takes longer.
+/// Whether the worst quad is good enough, nearly all sides have the requested size, and the rows along the
+/// boundary are good.
 bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
-    constexpr double kMean = 0.92;
-    return quality.min_scaled_jacobian > least && quality.mean_scaled_jacobian > kMean &&
-           quality.size_share() > kPromisedShare && quality.row_share() >= rows;
+    return quality.min_scaled_jacobian > least && quality.size_share() > kPromisedShare &&
+           quality.row_share() >= rows;
 }
 
 /// The corners of the only loop of a region: the nodes whose angle suits one quad. Empty if the angle of some

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pattern_loop.h>
 
+#include <lacuna/core/shared/constants.h>
+#include <lacuna/quads/shared/pattern_counts.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -136,37 +139,28 @@ private:
 
 int fitting_rows(const PatternLoop& loop)
 {
-    // Number of rows for each side of a quarter turn. The square inside a disc is then about half as wide as
-    // the disc.
-    constexpr double kOfQuarter = 0.22;
     const std::size_t n = loop.size();
     int most = 1;
     for (std::size_t i = 0; i < n; ++i) {
         if (!loop.movable[i] || loop.turn(i) != 1) continue;
-        // Count the sides whose direction differs by less than half a right angle from the direction halfway
-        // between the two headings.
+        // Count the sides of a quarter turn, whose directions differ by less than half a right angle from the
+        // direction halfway between the two headings. Their length is the radius times a right angle.
         const double middle = i > 0 ? loop.heading[i] - 0.5 : loop.heading[0] - 0.5;
         int sides = 0;
         for (std::size_t k = 0; k < n; ++k) {
             if (std::abs(loop.direction[k] - middle) < 0.5) ++sides;
         }
-        most = std::max(most, static_cast<int>(std::lround(kOfQuarter * sides)));
+        most = std::max(most, static_cast<int>(std::lround(kRowsOfRadius * sides / kRightAngle)));
     }
     return most;
 }
 
-/// Up to this number, rows are always tried in front of a soft turn. Where a loop is bent inward, more rows
-/// would run into the rows of other loops.
-constexpr int kFewRows = 3;
-
 std::vector<int> rows_to_try(int fitting)
 {
-    std::vector<int> rows;
-    for (int r = 1; r <= kFewRows; ++r) rows.push_back(r);
+    std::vector<int> rows{1};
     for (const int r : {fitting / 2, 2 * fitting / 3, fitting}) {
         if (r > rows.back()) rows.push_back(r);
     }
-    if (fitting <= kFewRows) return rows;
     const auto off = [&](int r) { return std::abs(std::log(static_cast<double>(r) / fitting)); };
     std::ranges::stable_sort(rows, [&](int a, int b) { return off(a) < off(b); });
     return rows;
@@ -175,7 +169,7 @@ std::vector<int> rows_to_try(int fitting)
 void set_soft_rows(PatternLoop& loop, int rows)
 {
     for (std::size_t i = 0; i < loop.size(); ++i) {
-        if (loop.movable[i]) loop.soft[i] = loop.turn(i) < 0 ? std::min(rows, kFewRows) : rows;
+        if (loop.movable[i]) loop.soft[i] = loop.turn(i) < 0 ? 1 : rows;
     }
 }
 

@@ -8,9 +8,6 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Smallest angle between a line and the outline: 15°. A quad with a sharper angle would be a sliver.
-constexpr double kLeastAngle = kRightAngle / 6;
-
 /// Square of the difference between an angle and the nearest multiple of a right angle, in units of half a
 /// right angle.
 double angle_cost(double angle)
@@ -18,6 +15,9 @@ double angle_cost(double angle)
     const double off = (angle - quads_in(angle) * kRightAngle) / (kRightAngle / 2);
     return off * off;
 }
+
+/// Whether a line cuts so small an angle off a node's angle that a quad there would be folded.
+bool is_sliver(double part, double whole) { return std::min(part, whole - part) < std::asin(kFoldedQuad); }
 
 /// Finds the best line across a loop.
 class CutFinder {
@@ -113,9 +113,9 @@ private:
         const Vec2 along = at(j) - at(i);
         const double heading = std::atan2(along.y(), along.x());
         const double part_i = whole_turn(heading - heading_[i]);
-        if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle) return std::nullopt;
+        if (is_sliver(part_i, angles_[i])) return std::nullopt;
         const double part_j = whole_turn(heading + std::numbers::pi - heading_[j]);
-        if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
+        if (is_sliver(part_j, angles_[j])) return std::nullopt;
         const double arc = arc_[j] - arc_[i];
         // Length relative to the outline that the line cuts off.
         const double reach = along.norm() / std::min(arc, arc_[n_] - arc);

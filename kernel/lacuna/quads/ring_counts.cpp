@@ -61,6 +61,15 @@ int repeats(const CountTask& task, std::size_t l)
     return 1;
 }
 
+/// Number of wanted sides around a ring.
+double wanted_along(const CountedLoop& loop)
+{
+    double sum = 0;
+    for (const CountedRun& run : loop.runs)
+        sum += run.quarter % 2 != 0 ? 0 : run.quarter == 0 ? run.wanted : -run.wanted;
+    return std::abs(sum);
+}
+
 /// The two loops of a ring with the smallest total cost. The cost of each loop is relative to its wanted
 /// number of sides.
 /// @param multiple  the number of sides of the outer loop along the ring is a multiple of this.
@@ -74,11 +83,17 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
     std::optional<std::vector<CountedLoop>> best;
     double least = kInfinity;
     const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
+    // Weight of the deviation from the wanted number of sides along the ring. It does not apply if rows
+    // change their number of quads (`by` is not 0), because such rows adapt. Chosen on gears of 400 and 3,000
+    // quads.
+    constexpr double kQuads = 3;
+    const double mean = (wanted_along(ends[0]) + wanted_along(ends[1])) / 2;
     for (const int by : more) {
         for (int sides = (low + multiple - 1) / multiple * multiple; sides < high + multiple;
              sides += multiple) {
             if (sides - by < 3) continue;
-            double cost = 0;
+            const double off = by == 0 ? sides / mean - 1 : 0;
+            double cost = kQuads * off * off;
             bool closed = true;
             std::vector<CountedLoop> tried(ends.begin(), ends.end());
             for (std::size_t e = 0; e < 2 && closed; ++e) {

@@ -63,16 +63,17 @@ private:
 
     void raise(const Post& post)
     {
-        // Deviations of the height and along the boundary, up to `kRowOffHeight`, are not corrected.
+        // Deviations of the height and along the boundary, up to these shares of the height, are not
+        // corrected. With larger values, fewer nodes are moved.
+        constexpr double kHeight = 0.2, kLean = 0.2;
         const Vec2 start = at(post.top), arm = start - at(post.foot);
         const Vec2 along(post.inward.y(), -post.inward.x());
         // If the row's height is already within `kRowOffHeight` of the requested height, the correction must
         // not make neighbours worse.
         const bool is_good = std::abs(arm.dot(post.inward) - post.height) <= kRowOffHeight * post.height;
-        const double up = std::clamp(arm.dot(post.inward), (1 - kRowOffHeight) * post.height,
-                                     (1 + kRowOffHeight) * post.height);
-        const double side = std::clamp(arm.dot(along), -kRowOffHeight * post.height,
-                                       kRowOffHeight * post.height);
+        const double up = std::clamp(arm.dot(post.inward), (1 - kHeight) * post.height,
+                                     (1 + kHeight) * post.height);
+        const double side = std::clamp(arm.dot(along), -kLean * post.height, kLean * post.height);
         const Vec2 goal = at(post.foot) + up * post.inward + side * along;
         const double before = worst_at(post.top), least = is_good ? before : std::min(before, kGoodQuad);
         for (const double part : {1.0, 0.5, 0.25}) {

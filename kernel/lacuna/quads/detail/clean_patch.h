@@ -31,9 +31,9 @@ public:
     /// @param mesh  kept by reference; it may change between calls of `start()`
     explicit PatchGrower(const CleanMesh& mesh) : mesh_(mesh) {}
 
-    /// Start with the star of an irregular point and search for up to `others` further irregular points among
-    /// the nearest `points`.
-    void start(Index seed, std::size_t others, std::size_t points);
+    /// Start with the star of an irregular point and search for up to `others` further irregular points
+    /// nearby.
+    void start(Index seed, std::size_t others);
     /// Irregular points near the seed, the nearest first.
     [[nodiscard]] const std::vector<Index>& others() const { return others_; }
     /// All points near the seed that the search visited.
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] const QuadPatch& patch() const { return patch_; }
 
 private:
-    void look_for_others(Index seed, std::size_t most, std::size_t points);
+    void look_for_others(Index seed, std::size_t most);
     void add_star(Index p);
     bool fill_notches(std::size_t largest);
     Index link_sides();

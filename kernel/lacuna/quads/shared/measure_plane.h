@@ -58,8 +58,8 @@ private:
     }
 };
 
-/// Number of quads that suits an angle: the number of right angles nearest to it, at least one. One quad at
-/// an end, two on a side, three at a corner, four at a reversal of the boundary.
+/// Number of quads that suits an angle: the number of right angles nearest to it, at least one. It is one at
+/// an end of the boundary, two on a side, three at a corner, four at a reversal.
 inline int quads_in(double angle) { return std::max(1, static_cast<int>(angle / kRightAngle + 0.5)); }
 
 /// The angle inside the region at each of its boundary nodes, one loop after the other [radian].

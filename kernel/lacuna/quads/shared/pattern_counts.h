@@ -27,6 +27,9 @@ inline constexpr double kManyQuads = 20'000;
 /// made for several solutions. The axes of a part are divided by the requested size first, because the graded
 /// size, which grows away from short given sides, would leave too few grid lines in the part.
 inline constexpr double kFewQuads = 200;
+/// Depth of the rows along a round side, as a share of its radius. The square inside a disc is then about
+/// half as wide as the disc.
+inline constexpr double kRowsOfRadius = 1.0 / 3;
 /// Number of candidates that are tried, in the order of their estimated cost.
 inline constexpr std::size_t kCandidates = 4;
 /// A segment with fewer wanted sides than this need not get an even number of sides, because rounding would
