@@ -59,23 +59,20 @@ inline constexpr double kFewestEven = 8;
 /// wanted numbers are rounded.
 ///
 /// For a straight grid the sum has three more terms:
-/// - a quarter of (quads − requested)² / requested, because rows along round turns add quads. A round (soft)
-///   turn is one where the grid turns behind some rows of quads, see `PatternLoop`;
+/// - (√quads − √requested)², because rows along round turns add quads. A round (soft) turn is one where the
+///   grid turns behind some rows of quads, see `PatternLoop`;
 /// - for each round turn, ln²(rows / fitting rows), times half the number of fitting rows if there are more
 ///   than two. The fitting rows fill about a third of the radius of the widest turn (`fitting_rows()`);
 /// - a penalty for unequal numbers of mirrored segments if the part itself is symmetric.
 ///
 /// The sum is compared for several solutions: rounding starts from several multiples of the wanted numbers,
-/// and several numbers of rows are tried. If the straight grid of a region without axes then has too many or
-/// too few quads, further multiples are tried.
+/// and several numbers of rows are tried.
 ///
 /// Below 200 quads, there are these differences:
 /// - The axes are divided by the requested size, not by a size that grows away from short sides.
 /// - Parts between other pairs of axes are tried as well.
 /// - The grid of a part must have grid lines between its holes. If there is no such grid, segments may
 ///   deviate from their wanted numbers as much as on a ring.
-/// - For a straight grid of a region without axes, a grid is made for each of the four cheapest solutions,
-///   including those with fewer round turns. The numbers of the grid with the best measured quality are used.
 ///
 /// A region of three or five sides that no grid fills gets numbers for three or five grids around one node.
 /// The wanted numbers are scaled, because such grids would otherwise have too many or too few quads.
@@ -87,8 +84,7 @@ inline constexpr double kFewestEven = 8;
 /// Method: the equations of a loop have coefficients of 1 and -1, and a number occurs in two equations only
 /// if its segment turns. Therefore it is enough to round the wanted numbers and to change numbers by one, the
 /// cheapest change first, until all equations hold. Afterwards a hole gets one row or column more or less if
-/// its centre then lies where the outer loop's grid coordinates require it, which preserves symmetry. Below
-/// 200 quads, the numbers without this change are tried too.
+/// its centre then lies where the outer loop's grid coordinates require it, which preserves symmetry.
 /// @param region   the region with its current nodes, whose number does not matter.
 /// @param segment  for each boundary node, the number of the segment that contains the side from this node to
 ///         the next.
