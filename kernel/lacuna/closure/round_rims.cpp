@@ -177,13 +177,12 @@ private:
 std::vector<std::vector<FaceId>> parts_of_end(const OpenVolume& volume, Role end,
                                               const std::vector<double>& turns)
 {
-    constexpr double kUpright = 90 - kCreaseAngle;
     const std::vector<FaceId> faces = volume.faces(end);
     geometry::UnionFind joined(volume.model.faces.size());
     for (const FaceId face : faces)
         for (const EdgeUse& use : uses_of(volume.model[face]))
             for (const FaceUse& user : volume.model.uses_of_edge(use.edge))
-                if (volume.role[user.face.index()] == end && turns[use.edge.index()] > -kUpright)
+                if (volume.role[user.face.index()] == end && turns[use.edge.index()] > kCreaseAngle - 90)
                     joined.unite_least(face.index(), user.face.index());
     std::map<std::size_t, std::vector<FaceId>> by_first;
     for (const FaceId face : faces) by_first[joined.find(face.index())].push_back(face);

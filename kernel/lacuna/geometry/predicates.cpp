@@ -24,7 +24,6 @@ constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
 // bounds.
 constexpr double kOrientBound = (3 + 16 * kRounding) * kRounding;
 constexpr double kIncircleBound = (10 + 96 * kRounding) * kRounding;
-constexpr double kSplitter = 134217729.0; // 2^27 + 1 splits a double into two halves of 26 bits
 
 struct Exact {
     double high, low;
@@ -38,20 +37,10 @@ Exact two_sum(double a, double b)
     return {sum, (a - a_part) + (b - b_part)};
 }
 
-Exact split(double a)
-{
-    const double scaled = kSplitter * a;
-    const double high = scaled - (scaled - a);
-    return {high, a - high};
-}
-
 Exact two_product(double a, double b)
 {
     const double product = a * b;
-    const Exact as = split(a);
-    const Exact bs = split(b);
-    const double rest = ((product - as.high * bs.high) - as.low * bs.high) - as.high * bs.low;
-    return {product, as.low * bs.low - rest};
+    return {product, std::fma(a, b, -product)};
 }
 
 /// Non-overlapping terms, smallest first, without zeros.

@@ -25,10 +25,6 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Cost of a candidate with one end, and of steps at both ends. Rule of thumb: a sweep from one flat face
-/// falls into fewer pieces, two flat ends are likelier than one end, one end is likelier than none
-/// (`kNoEnd`), and any flat end is likelier than a bent end.
-constexpr double kOneEnd = 0.05;
 /// Cost of a connected set of sharp wall edges that does not run from end to end, and cost of a window (a rim
 /// of the walls whose edges are all free). Rule of thumb: the shoulder of a stepped bore is more likely part
 /// of a stepped end than a wall.
@@ -74,6 +70,10 @@ struct Reading {
 struct SteppedEnds {
     std::vector<std::size_t> source, target;
 };
+
+/// Cost of a candidate with one end, and of steps at both ends: half way between those of two ends and of
+/// none. A sweep from one flat face falls into fewer pieces, and any flat end is likelier than a bent end.
+double cost_of_one_end() { return kNoEnd / 2; }
 
 /// The angles across edges. A smooth edge between a flat and a bent face gets the crease angle, so that a
 /// floor with a rounded rim can be an end.
@@ -146,7 +146,7 @@ public:
         for (std::size_t a = 0; a < map_.patches.size(); ++a) {
             check_cancelled(context_);
             if (stands_alone(a) && (!tally_ || tally_->can_hold(a)))
-                add({a, kNoIndex, kOneEnd + bend(map_.patches[a]) + map_.patches[a].slant});
+                add({a, kNoIndex, cost_of_one_end() + bend(map_.patches[a]) + map_.patches[a].slant});
         }
         // Sort the patches so that those that can form pairs with the most other patches come first.
         std::vector<std::size_t> order(map_.patches.size());
@@ -257,7 +257,7 @@ private:
         if (reading.step == kNoIndex) return 0;
         const SteppedEnds& ends = stepped_[reading.step];
         const auto patches = static_cast<double>(ends.source.size() + ends.target.size());
-        return kStep * std::log2(patches - 1) + (ends.source.size() > 1 ? kOneEnd : 0);
+        return kStep * std::log2(patches - 1) + (ends.source.size() > 1 ? cost_of_one_end() : 0);
     }
 
     /// Cost of sharp edges between walls that do not run from end to end.
