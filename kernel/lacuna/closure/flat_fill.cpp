@@ -115,12 +115,8 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
                if (!loops) return std::nullopt;
                fill_flat(result, loops->flat, context);
                for (const Loop& loop : loops->bent) {
-                   std::optional<VoidFilling> filling;
-                   if (missing == Missing::any && !is_ruled_between_alike(volume.model, loop))
-                       filling = fill_round_patch(volume.model, loop, context);
-                   if (!filling) filling = fill(volume, {loop}, nullptr, {"the missing wall"}, context);
-                   result.closure.void_faces.push_back(
-                       add_void_face(volume, std::move(*filling), Role::wall));
+                   result.closure.void_faces.push_back(add_void_face(
+                       volume, fill(volume, {loop}, nullptr, {"the missing wall"}, context), Role::wall));
                }
                return std::move(result);
            })
@@ -223,7 +219,6 @@ std::optional<FlatFilling> fill_free_loops(const Model& model, const std::vector
     if (!filled || !prove(*filled, context)) return std::nullopt;
     note_closed_holes(model, faces, filled->volume, RolesBy::finding, filled->closure);
     note_open_rims(filled->volume, RolesBy::finding, filled->closure);
-    note_unshown_planes(filled->volume.model, filled->closure);
     return filled;
 }
 

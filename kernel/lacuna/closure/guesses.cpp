@@ -303,7 +303,8 @@ std::vector<NamedEntity> given_beside(const Model& model, const std::vector<Face
 }
 
 /// Note that one face is assumed in a rim that more faces may fill.
-void note_one_wall(const Model& model, FaceId face, Closure& closure, Assumed what = Assumed::shape)
+void note_one_wall(const Model& model, FaceId face, Closure& closure, Assumed what = Assumed::shape,
+                   double share = 1)
 {
     assume(closure,
            Message("closure.wall_assumed",
@@ -311,7 +312,7 @@ void note_one_wall(const Model& model, FaceId face, Closure& closure, Assumed wh
                    "assumed",
                    entity_of(model, face), given_beside(model, {face}))
                .remedy("if several faces or a whole part are missing there, give them"),
-           1, what);
+           share, what);
 }
 
 /// Whether a void face meets another void face.
@@ -319,32 +320,6 @@ bool touches_void_face(const Model& model, FaceId face)
 {
     return std::ranges::any_of(faces_beside(model, face),
                                [&](FaceId other) { return model[other].origin == Origin::made_void; });
-}
-
-/// Whether the given edges of a flat void face show its plane: three straight sides, or one and a curve. Two
-/// straight sides that meet or are parallel are coplanar whatever is missing there, and a round face may end
-/// in a planar curve as well.
-bool shows_plane(const Model& model, FaceId face)
-{
-    const auto is_given = [&](const EdgeUse& use) {
-        return std::ranges::any_of(model.uses_of_edge(use.edge), [&](const FaceUse& by) {
-            return model[by.face].origin != Origin::made_void;
-        });
-    };
-    std::size_t straight = 0;
-    bool curved = false;
-    for (const Loop& loop : model[face].loops) {
-        for (std::size_t i = 0; i < loop.uses.size(); ++i) {
-            const EdgeUse use = loop.uses[i],
-                          before = loop.uses[(i + loop.uses.size() - 1) % loop.uses.size()];
-            if (!is_given(use)) continue;
-            if (!is_straight(model, {use}))
-                curved = true;
-            else if (!is_given(before) || !is_straight(model, {before}) || turns_sharply(model, before, use))
-                ++straight;
-        }
-    }
-    return straight + (curved ? 2 : 0) > 2;
 }
 
 /// Whether all given faces beside a flat void face are perpendicular to it.
@@ -358,6 +333,33 @@ bool is_square_to_given(const Model& model, FaceId face)
                    return std::abs(area.dot(normal)) <= kParallel * area.norm();
                });
     });
+}
+
+/// Whether the given edges of a flat void face show its plane:
+/// - three straight sides, or one and a curve. Two straight sides that meet or are parallel are coplanar
+///   whatever is missing there, and a round face may end in a planar curve as well;
+/// - two straight sides that meet, or a curve, if all given faces there are perpendicular to the void face. A
+///   rounded end may be missing between parallel sides.
+bool shows_plane(const Model& model, FaceId face)
+{
+    const auto is_given = [&](const EdgeUse& use) { return model[use.edge].origin == Origin::given; };
+    std::vector<Vec3> straight;
+    bool curved = false;
+    for (const Loop& loop : model[face].loops) {
+        for (std::size_t i = 0; i < loop.uses.size(); ++i) {
+            const EdgeUse use = loop.uses[i],
+                          before = loop.uses[(i + loop.uses.size() - 1) % loop.uses.size()];
+            if (!is_given(use)) continue;
+            const std::vector<Vec3> places = use_places(model, use);
+            if (!is_straight(model, {use}))
+                curved = true;
+            else if (!is_given(before) || !is_straight(model, {before}) || turns_sharply(model, before, use))
+                straight.push_back((places.back() - places.front()).stableNormalized());
+        }
+    }
+    const bool meet = std::ranges::any_of(
+        straight, [&](const Vec3& side) { return side.cross(straight.front()).norm() > kParallel; });
+    return straight.size() + (curved ? 2 : 0) > 2 || ((meet || curved) && is_square_to_given(model, face));
 }
 
 /// The given faces at a rim of a void face.
@@ -427,6 +429,22 @@ void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
                    given_beside(model, flat), entities_of(model, flat), 100 * half_ball / enclosed)
                .remedy("if a true face is not flat or has a hole, give it"),
            1, Assumed::straight);
+}
+
+/// Note flat void faces that meet other void faces and whose given edges do not show their plane.
+void note_unshown_planes(const Model& model, Closure& closure)
+{
+    std::vector<FaceId> unshown;
+    for (const FaceId face : closure.void_faces)
+        if (has_flat_loops(model, face) && touches_void_face(model, face) && !shows_plane(model, face))
+            unshown.push_back(face);
+    if (unshown.empty()) return;
+    assume(closure,
+           Message("closure.edge_assumed",
+                   "flat faces that meet in straight edges are assumed to be missing beside {}",
+                   given_beside(model, unshown))
+               .remedy("if more faces are missing there, give them"),
+           1, Assumed::rim);
 }
 
 /// Largest distance of the centroids of the other void faces from the mean plane of `face` [model length].
@@ -533,15 +551,22 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
 {
     const Model& model = sealed.model;
     const double enclosed = enclosed_volume(sealed);
-    for (const FaceId face : membranes(model, closure.void_faces))
-        assume(closure,
-               Message("closure.membrane",
-                       "{} is a smooth face over a rim that is not planar, so its shape is assumed",
-                       entity_of(model, face))
-                   .remedy("if the true face bulges otherwise, give it"),
-               std::max(std::abs(beside_thin_plate(model, face).above), beside_flat_rim(model, face)) /
-                   enclosed);
-    if (by == RolesBy::finding) note_flat_in_circles(model, enclosed, closure);
+    for (const FaceId face : membranes(model, closure.void_faces)) {
+        // A membrane in place of several faces may be as far from them as from its plane.
+        const double others = by == RolesBy::finding ? beside_plane(model, face) : 0;
+        assume(
+            closure,
+            Message("closure.membrane",
+                    "{} is a smooth face over a rim that is not planar, so its shape is assumed",
+                    entity_of(model, face))
+                .remedy("if the true face bulges otherwise, give it"),
+            std::max({std::abs(beside_thin_plate(model, face).above), beside_flat_rim(model, face), others}) /
+                enclosed);
+    }
+    if (by == RolesBy::finding) {
+        note_flat_in_circles(model, enclosed, closure);
+        note_unshown_planes(model, closure);
+    }
     for (const FaceId face : closure.void_faces) {
         // If the user named the roles, exactly one wall is missing at such a rim. Otherwise several faces may
         // be missing there.
@@ -550,6 +575,10 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                 note_one_wall(model, face, closure);
             else if (has_only_quadric(model, face))
                 note_one_wall(model, face, closure, Assumed::rim);
+            else if (rests_on_void_edges(model, face) ||
+                     (continues_face_beside(model, face) && !face_round_hole(model, face)))
+                note_one_wall(model, face, closure, Assumed::rim,
+                              std::pow(face_area(model, face), 1.5) / enclosed);
         }
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
         assume(closure,
@@ -558,22 +587,6 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                    .remedy("if the true face bulges otherwise, give it"),
                1);
     }
-}
-
-void note_unshown_planes(const Model& model, Closure& closure)
-{
-    std::vector<FaceId> unshown;
-    for (const FaceId face : closure.void_faces)
-        if (has_flat_loops(model, face) && touches_void_face(model, face) && !shows_plane(model, face) &&
-            !is_square_to_given(model, face))
-            unshown.push_back(face);
-    if (unshown.empty()) return;
-    assume(closure,
-           Message("closure.edge_assumed",
-                   "flat faces that meet in straight edges are assumed to be missing beside {}",
-                   given_beside(model, unshown))
-               .remedy("if more faces are missing there, give them"),
-           1, Assumed::rim);
 }
 
 void note_joined_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)

@@ -14,6 +14,8 @@
 #include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/signed_area.h>
+#include <lacuna/geometry/shared/spread.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -478,6 +480,7 @@ std::optional<RoundWall> wall_along(const Sides& sides)
             places.push_back((side.front() + side.back()) / 2);
     }
     if (std::ranges::all_of(sides, is_one_line)) return std::nullopt;
+    const double thickness = std::sqrt(geometry::spread_of(places).square(0));
     for (const Circle& circle : circles_across(sides, places)) {
         const auto count = static_cast<Eigen::Index>(places.size());
         Eigen::MatrixXd left(count, 2);
@@ -491,7 +494,9 @@ std::optional<RoundWall> wall_along(const Sides& sides)
         if (high - low <= kVisible * circle.radius) continue; // a single circle determines no wall
         const Eigen::VectorXd fit = geometry::least_squares(left, right);
         const double off = (left * fit - right).cwiseAbs().maxCoeff(), least = right.minCoeff();
-        if (off > kVisible * circle.radius || !(least > kOffShape * circle.radius)) continue;
+        // Sides that are nearly planar lie near any wide cylinder.
+        if (off > kVisible * std::min(circle.radius, thickness) || !(least > kOffShape * circle.radius))
+            continue;
         return RoundWall{circle.base, fit(0), fit(1), bent_step(sides)};
     }
     return std::nullopt;
@@ -552,6 +557,14 @@ bool is_bent_ring(const Model& model, FaceId face)
            !cone_shape(model, face) && !is_ruled_between_alike(model, model[face].loops.front());
 }
 
+bool given_sides_show_round_wall(const Model& model, const Loop& loop)
+{
+    Sides given;
+    for (const EdgeUse& use : loop.uses)
+        if (model[use.edge].origin == Origin::given) given.push_back(use_places(model, use));
+    return !given.empty() && wall_along(given) && wall_through(model, loop);
+}
+
 std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, const geometry::Plane& plane)
 {
     const std::optional<RoundWall> wall = wall_along(sides);
@@ -586,12 +599,15 @@ std::optional<VoidFilling> fill_round_patch(const Model& model, const Loop& loop
         if (i > 0) turn += turn_between(turn, angle_at(wall->base, places[i]));
         unrolled.emplace_back(turn * wall->radius, geometry::height(wall->base, places[i]));
     }
+    // The facets run the same way round as the loop.
+    const double sense = std::copysign(1, geometry::signed_area(unrolled));
+    for (Vec2& p : unrolled) p.x() *= sense;
     Outline outline;
     outline.add_loop(unrolled, loop_points(model, loop.uses));
     if (geometry::find_crossing(outline.flat, outline.loops)) return std::nullopt;
     const geometry::Triangulation flat = triangulate_unrolled(outline, wall->step, context);
     VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) -> Vec3 {
-        const double angle = flat.points[i].x() / wall->radius, height = flat.points[i].y();
+        const double angle = sense * flat.points[i].x() / wall->radius, height = flat.points[i].y();
         const double radius = wall->radius_at(height);
         return geometry::from_plane(wall->base, radius * Vec2(std::cos(angle), std::sin(angle)), height);
     });

@@ -51,6 +51,13 @@ bool are_similar(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
     return true;
 }
 
+/// Whether two faces are parts of equal spheres, or of cylinders with equal radii and parallel axes.
+bool are_alike(const RoundShape& a, const RoundShape& b)
+{
+    return std::abs(a.radius - b.radius) <= kOffShape * b.radius && a.is_sphere() == b.is_sphere() &&
+           (b.is_sphere() || a.axis->cross(*b.axis).norm() <= kParallel);
+}
+
 /// Whether a single bent given face, or parts of one cylinder or sphere, surround a loop. The loop is then a
 /// hole in these faces; a void face of the same shape would only continue them.
 bool is_hole_in_round_face(const Model& model, const Loop& loop)
@@ -66,12 +73,8 @@ bool is_hole_in_round_face(const Model& model, const Loop& loop)
         shapes.push_back(*shape);
     }
     if (shapes.empty()) return false;
-    const RoundShape& first = shapes.front();
-    return std::ranges::all_of(shapes, [&](const RoundShape& shape) {
-        return std::abs(shape.radius - first.radius) <= kOffShape * first.radius &&
-               shape.is_sphere() == first.is_sphere() &&
-               (first.is_sphere() || shape.axis->cross(*first.axis).norm() <= kParallel);
-    });
+    return std::ranges::all_of(shapes,
+                               [&](const RoundShape& shape) { return are_alike(shapes.front(), shape); });
 }
 
 // --- several faces ----------------------------------------------------------------------------------------
@@ -483,11 +486,32 @@ bool closes_hole_in_bent_face(const Model& model, FaceId face)
            is_hole_in_round_face(model, model[face].loops.front());
 }
 
+bool continues_face_beside(const Model& model, FaceId face)
+{
+    const auto plane = plane_of(model, face);
+    const auto shape = plane ? std::nullopt : round_shape(model, face);
+    return std::ranges::any_of(faces_beside(model, face), [&](FaceId other) {
+        if (model[other].origin != Origin::given) return false;
+        if (plane) return lies_in_plane(model, other, *plane);
+        const auto beside = shape ? round_shape(model, other) : std::nullopt;
+        return beside && are_alike(*shape, *beside);
+    });
+}
+
 bool is_untold(const Model& model, FaceId face)
 {
     if (rims(model, {face}).size() == 2) return is_ring_at_step(model, face);
     return !has_flat_loops(model, face) && !is_about_flat(model, face) && !round_shape(model, face) &&
            !cone_shape(model, face) && !tells_face(model, model[face].loops.front());
+}
+
+bool rests_on_void_edges(const Model& model, FaceId face)
+{
+    const std::vector<Loop>& loops = model[face].loops;
+    const auto is_void = [&](const EdgeUse& use) { return model[use.edge].origin == Origin::made_void; };
+    return std::ranges::any_of(uses_of(model[face]), is_void) && !has_flat_loops(model, face) &&
+           !(loops.size() == 1 && (is_ruled_between_alike(model, loops.front()) ||
+                                   given_sides_show_round_wall(model, loops.front())));
 }
 
 bool has_only_quadric(const Model& model, FaceId face)

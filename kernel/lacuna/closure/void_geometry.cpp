@@ -4,6 +4,8 @@
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
+#include <lacuna/closure/detail/round_walls.h>
+#include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
@@ -226,6 +228,9 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
     const NewellOutline newell = newell_outline(model, loops);
     const auto crossing = geometry::find_crossing(newell.outline.flat, newell.outline.loops);
     const bool flat = newell.bulge <= model.tolerance;
+    // A wall that runs more than half round its axis cannot be flattened.
+    if (!flat && loops.size() == 1 && (crossing || !is_ruled_between_alike(model, loops.front())))
+        if (auto patch = fill_round_patch(model, loops.front(), context)) return std::move(*patch);
     const auto sides = loops.size() == 1 ? logical_sides(volume, loops.front())
                                          : std::vector<std::vector<EdgeUse>>{};
     const bool has_sides = !sides.empty() && (!flat || crossing);

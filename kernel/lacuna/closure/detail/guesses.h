@@ -53,12 +53,10 @@ void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& 
 /// Note assumptions about void faces:
 /// - membranes;
 /// - faces over rough rims;
-/// - if the program found the roles: flat faces in circles, and other faces whose rim does not determine how
-///   many faces are missing.
+/// - if the program found the roles: flat faces in circles, flat faces that meet other void faces and whose
+///   given edges do not show their plane, and other faces whose rim does not determine how many faces are
+///   missing.
 void note_open_rims(const topology::OpenVolume& sealed, RolesBy by, Closure& closure);
-
-/// Note flat void faces that meet other void faces and whose given edges do not show their plane.
-void note_unshown_planes(const topology::Model& model, Closure& closure);
 
 /// Note void faces between two flat rims of given faces:
 /// - if the program found the roles: shoulders and whole branches may be missing there as well;

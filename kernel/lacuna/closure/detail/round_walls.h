@@ -68,6 +68,10 @@ std::vector<topology::Loop> add_straight_walls(FlatFilling& filling, std::vector
 ///          would be straight.
 std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, const geometry::Plane& plane);
 
+/// Whether the sides of a rim that given faces share determine a circular cylinder or cone on which the whole
+/// rim lies, and the rim does not run round its axis.
+bool given_sides_show_round_wall(const topology::Model& model, const topology::Loop& loop);
+
 /// Fill a rim with a face on the circular cylinder or cone through the rim, unless the rim runs round the
 /// axis of that surface. The surface is found from an edge of the rim that is an arc about its axis, or from
 /// a straight edge along the axis of a cylinder. The facets are made on the unrolled surface.

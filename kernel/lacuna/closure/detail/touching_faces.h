@@ -39,9 +39,17 @@ std::optional<std::vector<topology::Loop>> split_touching(topology::Model& model
 /// bore or boss may be missing there.
 bool closes_hole_in_bent_face(const topology::Model& model, FaceId face);
 
+/// Whether a void face continues a given face beside it: both lie in one plane, or are parts of spheres or
+/// cylinders of equal radius. No edge would separate them if only one face were missing.
+bool continues_face_beside(const topology::Model& model, FaceId face);
+
 /// Whether nothing but a quadric that is not round determines the shape of a bent void face. A freeform face
 /// may end in such a rim as well.
 bool has_only_quadric(const topology::Model& model, FaceId face);
+
+/// Whether the shape of a bent void face rests on edges between missing faces: its given edges alone
+/// determine neither a round wall through its rim, nor a face that is ruled between similar sides.
+bool rests_on_void_edges(const topology::Model& model, FaceId face);
 
 /// Whether a void face is bent and its rim does not determine its shape; for a face with two rims, see
 /// `is_ring_at_step()`.
