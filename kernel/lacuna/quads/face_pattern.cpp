@@ -561,7 +561,7 @@ std::optional<PlanarQuads> fill_narrow_ring(const PlanarRegion& region, int rows
     if (region.loops.size() != 2) return std::nullopt;
     FacePattern pattern{.about = 1};
     pattern.across = rows;
-    const SizeField size = paving::sizes_with_boundary(region);
+    const SizeField size = paving::size_with_boundary(region);
     auto mesh = PatternFiller(region, pattern, size).run(context);
     if (mesh &&
         (least_scaled_jacobian(mesh->points, mesh->quads) < kPoorQuad || !find_fault(*mesh, region).empty()))

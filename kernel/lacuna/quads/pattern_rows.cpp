@@ -155,12 +155,18 @@ int fitting_rows(const PatternLoop& loop)
     return most;
 }
 
+/// Up to this number, rows are always tried in front of a soft turn. Where a loop is bent inward, more rows
+/// would run into the rows of other loops.
+constexpr int kFewRows = 3;
+
 std::vector<int> rows_to_try(int fitting)
 {
-    std::vector<int> rows{1};
+    std::vector<int> rows;
+    for (int r = 1; r <= kFewRows; ++r) rows.push_back(r);
     for (const int r : {fitting / 2, 2 * fitting / 3, fitting}) {
         if (r > rows.back()) rows.push_back(r);
     }
+    if (fitting <= kFewRows) return rows;
     const auto off = [&](int r) { return std::abs(std::log(static_cast<double>(r) / fitting)); };
     std::ranges::stable_sort(rows, [&](int a, int b) { return off(a) < off(b); });
     return rows;
@@ -169,7 +175,7 @@ std::vector<int> rows_to_try(int fitting)
 void set_soft_rows(PatternLoop& loop, int rows)
 {
     for (std::size_t i = 0; i < loop.size(); ++i) {
-        if (loop.movable[i]) loop.soft[i] = loop.turn(i) < 0 ? 1 : rows;
+        if (loop.movable[i]) loop.soft[i] = loop.turn(i) < 0 ? std::min(rows, kFewRows) : rows;
     }
 }
 

@@ -15,7 +15,7 @@ namespace lacuna::quads {
 /// 1. Every boundary side gets a heading, one of the four grid directions. Dynamic programming chooses the
 ///    headings that fit the directions of the sides and the angles between them (`head_loop()`). Directions
 ///    are measured relative to circles around a hole, or to the region's main direction.
-/// 2. Where the headings turn but the boundary does not, the turn is soft: rows of quads are
+/// 2. Where the headings turn but the boundary does not, the turn is soft: one to three rows of quads are
 ///    placed along the boundary up to the next corners, and the grid turns behind these rows. The grid then
 ///    has a node of valence 3 where the region bulges, and a node of valence 5 where the region is bent
 ///    inward. There are no other irregular nodes, so their number is the smallest that the boundary's corners

@@ -74,12 +74,12 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
 /// high as a third of the radius of the widest of these turns. 1 if there is no such turn.
 int fitting_rows(const PatternLoop& loop);
 
-/// The numbers of rows to try: one, and also larger numbers for wider turns. The number nearest to `fitting`
-/// comes first.
+/// The numbers of rows to try: one to three, and also larger numbers for wider turns. The number nearest to
+/// `fitting` comes first.
 std::vector<int> rows_to_try(int fitting);
 
-/// Set the number of rows at all soft turns. Turns where the boundary is bent inward get one row, because
-/// around a hole the other loops limit the room.
+/// Set the number of rows at all soft turns. Turns where the boundary is bent inward get at most three rows,
+/// because around a hole the other loops limit the room.
 /// @pre  `loop` is unchanged since `head_loop()`.
 void set_soft_rows(PatternLoop& loop, int rows);
 
