@@ -228,11 +228,12 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
     const NewellOutline newell = newell_outline(model, loops);
     const auto crossing = geometry::find_crossing(newell.outline.flat, newell.outline.loops);
     const bool flat = newell.bulge <= model.tolerance;
-    // A wall that runs more than half round its axis cannot be flattened.
-    if (!flat && loops.size() == 1 && (crossing || !is_ruled_between_alike(model, loops.front())))
-        if (auto patch = fill_round_patch(model, loops.front(), context)) return std::move(*patch);
     const auto sides = loops.size() == 1 ? logical_sides(volume, loops.front())
                                          : std::vector<std::vector<EdgeUse>>{};
+    // A wall without known sides that runs more than half round its axis cannot be flattened.
+    if (!flat && loops.size() == 1 &&
+        ((crossing && sides.empty()) || !is_ruled_between_alike(model, loops.front())))
+        if (auto patch = fill_round_patch(model, loops.front(), context)) return std::move(*patch);
     const bool has_sides = !sides.empty() && (!flat || crossing);
     const bool bent = !flat && !has_sides;
     auto told = bent && !crossing ? fill_as_rim_tells(model, loops, newell, context) : std::nullopt;
