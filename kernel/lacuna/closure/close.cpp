@@ -402,7 +402,12 @@ std::optional<Closed> seal_as_source_tells(const OpenVolume& volume, const Close
     OpenVolume open = volume;
     open.override_class.reset(); // with the moved end it is of class II or III
     auto moved = move_source(open, context);
-    if (moved) moved->closure.algorithms.insert(moved->closure.algorithms.begin(), "Algorithm 10");
+    if (!moved) return std::nullopt;
+    moved->closure.algorithms.insert(moved->closure.algorithms.begin(), "Algorithm 10");
+    // A person who names the roles says which walls are missing.
+    if (options.roles_by == RolesBy::person)
+        std::erase_if(moved->closure.assumptions,
+                      [](const Assumption& assumption) { return assumption.what == Assumed::rim; });
     return moved;
 }
 
