@@ -185,8 +185,8 @@ local holed = [[
 local drop = { "target", "wall_5", "wall_6", "wall_7", "wall_8" }
 local void = synthetic.prism { sides = 4, holes = 1, hole_radius = %g, drop = drop }:open_volume {
   source = "source", walls = { "wall_1", "wall_2", "wall_3", "wall_4" }, reading = 1 }]]
-tells("closure.hole_through", holed:format(0.4))
-tells(nil, holed:format(0.1))
+tells("closure.edge_assumed closure.hole_through", holed:format(0.4))
+tells("closure.edge_assumed", holed:format(0.1)) -- its flat walls are assumed, however small
 
 -- Ends that are turned against each other: straight or a bend.
 tells("closure.bend_assumed", prism('height = 4, bend = 60, drop = "walls"', ends))
@@ -222,7 +222,7 @@ grid("w3", { 3, 3, 0 }, { -1, 0, 0 }, { 0, 0, 1 }, 3, 3)
 grid("w4", { 0, 3, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, 3, %d)
 local void = model:open_volume {}]]
 tells("closure.hole_closed", box:format("1", 3))
-tells("closure.walls_filled", box:format("nil", 1))
+tells("closure.walls_filled closure.wall_assumed", box:format("nil", 1))
 tells(nil, box:format("nil", 3))
 
 -- A barrel with two opposite walls, which bulge by a share of its radius: too little to lead the void edges.

@@ -191,7 +191,8 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, std::vect
                                    std::ranges::any_of(sealed->closure.void_faces, [&](FaceId face) {
                                        return is_bent_ring(sealed->volume.model, face);
                                    }));
-    const bool closes = sealed && closes_hole(sealed->volume.model, sealed->closure);
+    const bool closes = sealed && connected_parts(model, faces).size() > 1 &&
+                        closes_hole(sealed->volume.model, sealed->closure);
     if (!differ && !untold && !closes && !reading.guess) return;
     auto told = read_filled(model, faces, context);
     if (!told || told->guess || (differ && closes_hole(told->volume.model, *told->closure))) return;

@@ -158,6 +158,7 @@ struct FacePattern {
     int rows = 1;
     int steps = 0; ///< number of rows by which the outer loop of a ring steps inward where the ring is narrow
     int corners = 0; ///< number of nodes at which rows of a ring change their number of sides
+    TurnStyle style = TurnStyle::soft;
     int across = 0; ///< number of rows between the loops of a ring; 0: as many as the size gives
 };
 
@@ -237,7 +238,7 @@ private:
 
     bool head(std::size_t l, const LoopFrame& frame, int turns)
     {
-        auto headed = head_loop(region_.points, region_.loops[l], frame);
+        auto headed = head_loop(region_.points, region_.loops[l], frame, pattern_.style);
         if (!headed) return false;
         set_soft_rows(*headed, pattern_.rows);
         loops_[l] = std::move(*headed);
@@ -410,12 +411,13 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeFiel
     return patterns;
 }
 
-/// Whether the worst quad is good enough, nearly all sides have the requested size, and the rows along the
-/// boundary are good.
+/// Whether nearly all quads of a mesh are square and have the requested size, and the rows along the boundary
+/// are good. With higher bounds, the search continues more often and finds better meshes, but takes longer.
 bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
-    return quality.min_scaled_jacobian > least && quality.size_share() > kPromisedShare &&
-           quality.row_share() >= rows;
+    constexpr double kMean = 0.92;
+    return quality.min_scaled_jacobian > least && quality.mean_scaled_jacobian > kMean &&
+           quality.size_share() > kPromisedShare && quality.row_share() >= rows;
 }
 
 /// The corners of the only loop of a region: the nodes whose angle suits one quad. Empty if the angle of some
@@ -435,19 +437,24 @@ std::vector<std::size_t> lone_corners(const PlanarRegion& region)
 class PatternTrial {
 public:
     PatternTrial(const PlanarRegion& region, const RunContext& context)
-        : region_(region), context_(context), size_(paving::size_with_boundary(region))
+        : region_(region),
+          context_(context),
+          sizes_(paving::sizes_with_boundary(region)),
+          has_half_ends_(has_half_ends(region))
     {
     }
 
     void run()
     {
         for (std::size_t l = 1; l < region_.loops.size() && !is_fine_; ++l) try_round(l);
-        if (!is_fine_) try_straight();
+        if (!is_fine_) try_straight(TurnStyle::soft);
+        if (!is_square_ && has_half_ends_) try_straight(TurnStyle::hard_ends);
+        if (!is_square_ && has_doubtful_turns(region_)) try_straight(TurnStyle::few_soft);
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
-    /// The meshes that were found. If the region has no holes, only meshes with about the requested number of
-    /// quads are returned, if there are any.
+    /// The meshes that were found. The number of quads matters if the region has no holes, or has ends of
+    /// 135°. Then only meshes with about the requested number are returned, if there are any.
     std::vector<PlanarQuads> take()
     {
         std::vector<PlanarQuads> fit;
@@ -463,30 +470,30 @@ private:
     {
         const PatternFiller like = fill({about, 1});
         if (like.more_sides() % 2 != 0 || like.more_sides() == 0 || !like.may_change()) return;
-        for (const FacePattern& unlike : unlike_rings(region_, size_, about, like.more_sides())) {
+        for (const FacePattern& unlike : unlike_rings(region_, sizes_.ring, about, like.more_sides())) {
             fill(unlike);
             if (is_square_) return;
         }
     }
 
     /// Try straight grid lines.
-    void try_straight()
+    void try_straight(TurnStyle style)
     {
         const std::size_t before = made_.size();
-        for (const int rows : rows_to_try(fitting_rows())) {
+        for (const int rows : rows_to_try(fitting_rows(style))) {
             if (is_fine_ || (is_square_ && made_.size() >= before + kCandidates)) return;
-            const PatternFiller filler = fill({0, rows});
+            const PatternFiller filler = fill({0, rows, 0, 0, style});
             if (filler.turns() == 0) return; // the number of rows has no effect without soft turns
         }
     }
 
     /// Number of rows that suits the soft turns of all loops in a straight grid.
-    [[nodiscard]] int fitting_rows() const
+    [[nodiscard]] int fitting_rows(TurnStyle style) const
     {
         const LoopFrame frame = straight_frame(region_);
         int most = 1;
         for (const Cycle& loop : region_.loops) {
-            const auto headed = head_loop(region_.points, loop, frame);
+            const auto headed = head_loop(region_.points, loop, frame, style);
             if (headed) most = std::max(most, quads::fitting_rows(*headed));
         }
         return most;
@@ -511,18 +518,18 @@ private:
         const TemplateMesh filled = fill_template(loop, corners, cut);
         PlanarQuads mesh{region_.points, {}, formatted("grids at {} corners", corners.size())};
         add_filling(mesh.points, mesh.quads, region_.loops[0], filled.inner, filled.quads);
-        return smoothed(std::move(mesh), region_, size_, context_);
+        return smoothed(std::move(mesh), region_, sizes_.usual, context_);
     }
 
     void keep(PlanarQuads mesh)
     {
-        // Scaled Jacobians of the worst quad at which parts of the search end. Above kSquare, rows that
-        // change their number of quads are not tried. Above kFine, if also the share of good rows is above
-        // kPromisedShare, nothing else is tried. Meshes of discs never exceed kFine.
+        // Scaled Jacobians of the worst quad at which parts of the search end. Above kSquare, hard ends of
+        // 135° and rows that change their number of quads are not tried. Above kFine, if also the share of
+        // good rows is above kPromisedShare, nothing else is tried. Meshes of discs never exceed kFine.
         constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
-        const bool decides = region_.loops.size() == 1;
-        fits_.push_back(!decides || paving::has_quads_asked(made_.back(), size_) ? 1 : 0);
+        const bool decides = has_half_ends_ || region_.loops.size() == 1;
+        fits_.push_back(!decides || paving::has_quads_asked(made_.back(), sizes_.usual) ? 1 : 0);
         if (!fits_.back()) return;
         const PlaneQuality quality = measure_plane(made_.back(), region_);
         is_square_ = is_square_ || quads::is_fine(quality, kSquare, 0);
@@ -532,17 +539,18 @@ private:
     PatternFiller fill(const FacePattern& pattern)
     {
         check_cancelled(context_);
-        PatternFiller filler(region_, pattern, size_);
+        PatternFiller filler(region_, pattern, pattern.about > 0 ? sizes_.ring : sizes_.usual);
         if (auto mesh = filler.run(context_)) keep(std::move(*mesh));
         return filler;
     }
 
     const PlanarRegion& region_;
     const RunContext& context_;
-    const SizeField size_;
+    const paving::BoundarySizes sizes_;
     std::vector<PlanarQuads> made_;
     /// For each mesh, whether it has the requested number of quads, or this number does not matter.
     std::vector<char> fits_;
+    const bool has_half_ends_;
     bool is_square_ = false; ///< whether some mesh has nearly square quads
     bool is_fine_ = false;   ///< whether some mesh also has good rows
 };
@@ -561,8 +569,8 @@ std::optional<PlanarQuads> fill_narrow_ring(const PlanarRegion& region, int rows
     if (region.loops.size() != 2) return std::nullopt;
     FacePattern pattern{.about = 1};
     pattern.across = rows;
-    const SizeField size = paving::size_with_boundary(region);
-    auto mesh = PatternFiller(region, pattern, size).run(context);
+    const paving::BoundarySizes sizes = paving::sizes_with_boundary(region);
+    auto mesh = PatternFiller(region, pattern, sizes.ring).run(context);
     if (mesh &&
         (least_scaled_jacobian(mesh->points, mesh->quads) < kPoorQuad || !find_fault(*mesh, region).empty()))
         return std::nullopt;

@@ -177,7 +177,7 @@ std::optional<Counts> mirror_counts(const CountTask& task)
     SizeField asked = task.region.size;
     if (!asked) asked = [mean = mean_size(task)](const Vec2&) { return mean; };
     // With few quads, the axes are too short for a graded size, so the requested size is tried first.
-    std::vector<SizeField> sizes{paving::size_with_boundary(task.region)};
+    std::vector<SizeField> sizes{paving::sizes_with_boundary(task.region).usual};
     if (quads_asked(task) < kFewQuads) sizes.insert(sizes.begin(), asked);
     return cheapest_of_parts(halved.region, symmetries, sizes, [&](const MirrorPart& part) {
         return counts_by_part(task, halved, part, sizes.size() > 1);

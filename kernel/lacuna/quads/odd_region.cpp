@@ -3,7 +3,6 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/mesh/quad_mesh.h>
@@ -22,6 +21,9 @@
 namespace lacuna::quads {
 namespace {
 
+/// Only this many quads of a row, counted from the boundary, are tried as the triangle, so the triangle is
+/// near the boundary.
+constexpr std::size_t kRowSteps = 8;
 /// Number of rings of cells around the closed row whose nodes are moved, and number of rounds of moves. If
 /// the mesh is smoothed later, `kFewRounds` is used. More rings or rounds improve the worst cell only
 /// slightly.
@@ -187,9 +189,9 @@ Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index mid
     Window window;
     window.nodes.push_back(middle);
     number[index(middle)] = 0;
-    // A row extends at most kMostTrials - 1 rings from the middle node, the nodes that move lie up to kRings
+    // A row extends at most kRowSteps - 1 rings from the middle node, the nodes that move lie up to kRings
     // further, and one more ring contains their cells. The other two rings are a margin.
-    for (std::size_t ring = 0, begin = 0; ring < kMostTrials + kRings + 2; ++ring) {
+    for (std::size_t ring = 0, begin = 0; ring < kRowSteps + kRings + 2; ++ring) {
         const std::size_t end = window.nodes.size();
         for (; begin < end; ++begin) {
             for (const Index q : at.of(index(window.nodes[begin]))) {
@@ -225,7 +227,7 @@ Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index mid
 }
 
 /// All ways to close a row. The row starts at one of the two boundary sides that end at the middle node, and
-/// is closed up to one of its first kMostTrials quads, so that the triangle is near the boundary.
+/// is closed up to one of its first quads.
 std::vector<Row> rows_from(const Window& window)
 {
     const std::vector<Quad>& quads = window.mesh.quads;
@@ -241,7 +243,7 @@ std::vector<Row> rows_from(const Window& window)
         Row row;
         std::set<Index> touched;
         Index side = first;
-        for (std::size_t step = 0; step < kMostTrials && side >= 0; ++step) {
+        for (std::size_t step = 0; step < kRowSteps && side >= 0; ++step) {
             const Index a = end_of(side, 0), b = end_of(side, 1);
             // Two boundary nodes must not be merged, unless one of them is the added node.
             const bool both = window.on_rim[index(a)] != 0 && window.on_rim[index(b)] != 0;

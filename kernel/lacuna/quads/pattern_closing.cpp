@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/shared/constants.h>
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/pattern_loop.h>
 
 #include <array>
@@ -32,13 +31,13 @@ double own_turn(const PatternLoop& loop, std::size_t i)
                  : loop.direction[0] + loop.turns - loop.direction[loop.size() - 1];
 }
 
-/// Whether the quads at a node would have angles of 45° to 135° (`kCornerBelow`) if the loop turned there by
-/// `turn`.
+/// Whether the quads at a node would have angles of 54° to 126° if the loop turned there by `turn`. The sine
+/// of these angles is 0.8.
 bool may_turn(const PatternLoop& loop, std::size_t i, int turn)
 {
+    constexpr double kOffSquare = 0.4; // allowed deviation of each angle, in right angles: 54° to 126°
     if (turn < -2 || turn > 1 || loop.movable[i]) return false;
-    const double off = (2 - own_turn(loop, i)) / (2 - turn) - 1; // of each angle [right angles]
-    return std::abs(off) * kRightAngle < kCornerBelow * kDegree - kRightAngle;
+    return std::abs((2 - own_turn(loop, i)) / (2 - turn) - 1) < kOffSquare;
 }
 
 /// @param hard  true: move turns of the boundary itself, if the angles at the old and the new node permit it;

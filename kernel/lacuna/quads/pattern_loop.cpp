@@ -2,7 +2,6 @@
 #include <lacuna/quads/detail/pattern_loop.h>
 
 #include <lacuna/core/shared/constants.h>
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
@@ -20,7 +19,7 @@ namespace {
 ///   right angles, the limit of `least_irregular()`.
 ///
 /// Higher limits give fewer irregular nodes and worse quads at the boundary.
-constexpr double kSoftEnd = 0.49, kSoftCorner = 0.65 / 3;
+constexpr double kSoftEnd = 0.5 + 1e-9, kSoftHalf = 0.49, kSoftCorner = 0.65 / 3;
 
 double square(double x) { return x * x; }
 
@@ -65,17 +64,27 @@ LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loo
 
 /// Whether a turn is soft: it differs so much from the boundary's own turn that the grid turns behind some
 /// rows of quads.
-bool is_soft(double own, int turn)
+bool is_soft(double own, int turn, TurnStyle style)
 {
-    return turn != 0 && std::abs(own - turn) > (turn < 0 ? kSoftCorner * (2 - turn) : kSoftEnd);
+    const double limit = turn < 0                        ? kSoftCorner * (2 - turn)
+                         : style == TurnStyle::hard_ends ? kSoftEnd
+                                                         : kSoftHalf;
+    return turn != 0 && std::abs(own - turn) > limit;
 }
+
+/// Cost of a soft turn for `TurnStyle::few_soft`: the deviation of angles that is accepted to avoid an
+/// irregular node. For comparison, a side perpendicular to its heading costs 1. Not measured.
+constexpr double kSoftTurn = 0.5;
 
 /// Finds the headings with the least cost, for a given heading of the first side.
 class HeadingSearch {
 public:
     /// @param weight  weight of the deviation of a side's direction, relative to the deviation of a node's
     ///         angle.
-    HeadingSearch(const LoopAngles& angles, double weight) : angles_(angles), weight_(weight) {}
+    HeadingSearch(const LoopAngles& angles, double weight, TurnStyle style)
+        : angles_(angles), weight_(weight), style_(style)
+    {
+    }
 
     /// @return the cost of the best headings, which are stored in `best`.
     double run(int start, std::vector<int>& best)
@@ -134,10 +143,15 @@ private:
     {
         return weight_ * square(angles_.direction[i] - h);
     }
-    [[nodiscard]] double node_cost(std::size_t i, int turn) const { return square(angles_.turn[i] - turn); }
+    [[nodiscard]] double node_cost(std::size_t i, int turn) const
+    {
+        const bool costs = style_ == TurnStyle::few_soft && is_soft(angles_.turn[i], turn, style_);
+        return square(angles_.turn[i] - turn) + (costs ? kSoftTurn : 0);
+    }
 
     const LoopAngles& angles_;
     double weight_;
+    TurnStyle style_;
 };
 
 } // namespace
@@ -189,13 +203,23 @@ double main_angle(const PlanarRegion& region)
 
 LoopFrame straight_frame(const PlanarRegion& region) { return {.angle = main_angle(region)}; }
 
-std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
-                                     const LoopFrame& frame)
+bool has_half_ends(const PlanarRegion& region)
 {
-    // Sides count as much as nodes. For a grid around a hole the angles must decide, because the sides of a
-    // slot do not follow circles. There, all sides together count as much as one node.
+    return std::ranges::any_of(boundary_angles(region), [](double angle) {
+        const double off = angle / kRightAngle - 1;
+        return off > kSoftHalf && off <= kSoftEnd;
+    });
+}
+
+std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
+                                     const LoopFrame& frame, TurnStyle style)
+{
+    // Weight of a side's direction relative to a node's angle. For a grid around a hole the angles must
+    // decide, because the sides of a slot do not follow circles. The weight is therefore divided by the
+    // number of sides.
+    constexpr double kStraight = 1, kRound = 2;
     const LoopAngles angles = angles_of(points, loop, frame);
-    HeadingSearch search(angles, frame.polar ? 1 / static_cast<double>(loop.size()) : 1);
+    HeadingSearch search(angles, frame.polar ? kRound / static_cast<double>(loop.size()) : kStraight, style);
     PatternLoop headed{loop, {}, angles.direction, {}, {}, angles.turns};
     double least = kInfinity;
     for (int s = 0; s < HeadingSearch::kWidth; ++s) {
@@ -208,19 +232,33 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
     if (headed.heading.empty()) return std::nullopt;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const int turn = headed.turn(i);
-        const bool soft = is_soft(angles.turn[i], turn);
+        const bool soft = is_soft(angles.turn[i], turn, style);
         headed.soft.push_back(soft ? 1 : 0);
         headed.movable.push_back(soft ? 1 : 0);
     }
     return headed;
 }
 
+bool has_doubtful_turns(const PlanarRegion& region)
+{
+    const LoopFrame frame = straight_frame(region);
+    return std::ranges::any_of(region.loops, [&](const std::vector<Index>& loop) {
+        const auto soft = head_loop(region.points, loop, frame);
+        if (!soft || std::ranges::find(soft->movable, 1) == soft->movable.end()) return false;
+        const auto few = head_loop(region.points, loop, frame, TurnStyle::few_soft);
+        return few && few->heading != soft->heading;
+    });
+}
+
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop)
 {
+    // If the boundary turns by more than this at a node, the node is an end of the boundary, and a ring grid
+    // must not pass it straight [right angles]. These are angles of up to 112°; two quads there would have a
+    // sine of 0.83.
+    constexpr double kEnd = 0.75;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         if (loop.movable[i]) return false;
-        // A ring grid must not pass a corner of the boundary straight.
-        if (loop.turn(i) == 0 && corner_angle(points, loop.nodes, i) < kCornerBelow * kDegree) return false;
+        if (loop.turn(i) == 0 && 2 - corner_angle(points, loop.nodes, i) / kRightAngle > kEnd) return false;
     }
     return loop.turns == 0;
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pattern_loop.h>
 
-#include <lacuna/core/shared/constants.h>
-#include <lacuna/quads/shared/pattern_counts.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -51,8 +48,8 @@ public:
     bool lay_round_end()
     {
         const std::size_t n = loop_.size();
+        if (n < kFewestRoundEnd || loop_.turn(1) != 0 || loop_.turn(n - 1) != 0) return false;
         std::vector<Index> inner(n - 2);
-        if (inner.size() < 3 || loop_.turn(1) != 0 || loop_.turn(n - 1) != 0) return false;
         inner[0] = add(at(1) + at(n - 1) - at(0));
         for (std::size_t i = 1; i < inner.size(); ++i) inner[i] = add_inner(i + 1);
         quads_.push_back({loop_.nodes[0], loop_.nodes[1], inner[0], loop_.nodes[n - 1]});
@@ -111,6 +108,9 @@ public:
     }
 
 private:
+    static constexpr std::size_t kFewestRoundEnd = 5; ///< in shorter loops, the row's inner side would have
+                                                      ///< fewer than three nodes
+
     [[nodiscard]] const Vec2& at(std::size_t i) const { return point_of(points_, loop_.nodes, i); }
 
     Index add(const Vec2& p)
@@ -139,18 +139,21 @@ private:
 
 int fitting_rows(const PatternLoop& loop)
 {
+    // Number of rows for each side of a quarter turn. The square inside a disc is then about half as wide as
+    // the disc.
+    constexpr double kOfQuarter = 0.22;
     const std::size_t n = loop.size();
     int most = 1;
     for (std::size_t i = 0; i < n; ++i) {
         if (!loop.movable[i] || loop.turn(i) != 1) continue;
-        // Count the sides of a quarter turn, whose directions differ by less than half a right angle from the
-        // direction halfway between the two headings. Their length is the radius times a right angle.
+        // Count the sides whose direction differs by less than half a right angle from the direction halfway
+        // between the two headings.
         const double middle = i > 0 ? loop.heading[i] - 0.5 : loop.heading[0] - 0.5;
         int sides = 0;
         for (std::size_t k = 0; k < n; ++k) {
             if (std::abs(loop.direction[k] - middle) < 0.5) ++sides;
         }
-        most = std::max(most, static_cast<int>(std::lround(kRowsOfRadius * sides / kRightAngle)));
+        most = std::max(most, static_cast<int>(std::lround(kOfQuarter * sides)));
     }
     return most;
 }

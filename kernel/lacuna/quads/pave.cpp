@@ -21,7 +21,7 @@ using namespace paving;
 Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     PartialMesh partial{
-        region.points, {}, region.points.size(), size_with_boundary(region), flat_below(region)};
+        region.points, {}, region.points.size(), sizes_with_boundary(region).usual, flat_below(region)};
     std::vector<Cycle> loops = region.loops;
     std::vector<bool> wanted(loops.size(), true);
     int laid = 0;

@@ -50,7 +50,7 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
 PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     check(region);
-    const AttemptSetting setting{region, size_with_boundary(region), flat_below(region)};
+    const AttemptSetting setting{region, sizes_with_boundary(region).usual, flat_below(region)};
     Attempt attempt = begin_attempt(setting, RowStyle::by_shape, {}, context);
     finish_attempt(attempt, setting, true, context);
     if (attempt.worst > kPoorQuad && find_fault(attempt.mesh, region).empty()) {
@@ -72,7 +72,7 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
 {
     const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
     const auto in_four = [&](const PlanarRegion& divided, const RunContext& its_context) {
-        std::optional<Paved> made = pave_in_four(divided, size_with_boundary(divided), its_context);
+        std::optional<Paved> made = pave_in_four(divided, sizes_with_boundary(divided).ring, its_context);
         if (!made) throw NotSweepable("surface.pave", "internal error: the coarser region has no quads");
         report = std::move(made->report);
         return std::move(made->mesh);

@@ -7,7 +7,6 @@
 #include <lacuna/quads/detail/pave_patch.h>
 
 namespace lacuna::quads::paving {
-
 namespace {
 
 /// The quality above which a part with `nodes` nodes is filled without a cut. It rises with the size of the

@@ -8,6 +8,9 @@
 namespace lacuna::quads::paving {
 namespace {
 
+/// Smallest angle between a line and the outline: 15°. A quad with a sharper angle would be a sliver.
+constexpr double kLeastAngle = kRightAngle / 6;
+
 /// Square of the difference between an angle and the nearest multiple of a right angle, in units of half a
 /// right angle.
 double angle_cost(double angle)
@@ -15,9 +18,6 @@ double angle_cost(double angle)
     const double off = (angle - quads_in(angle) * kRightAngle) / (kRightAngle / 2);
     return off * off;
 }
-
-/// Whether a line cuts so small an angle off a node's angle that a quad there would be folded.
-bool is_sliver(double part, double whole) { return std::min(part, whole - part) < std::asin(kFoldedQuad); }
 
 /// Finds the best line across a loop.
 class CutFinder {
@@ -53,7 +53,11 @@ private:
     /// line so far.
     std::optional<Cut> cheapest()
     {
-        std::optional<Choice> best;
+        // Minimum distance of a line from the nodes that it passes, as a share of its edge length. Nodes at a
+        // smaller distance would get quads of half the size. If all lines pass nodes at a smaller distance,
+        // the cheapest of them is used.
+        constexpr double kAway = 0.5;
+        std::optional<Choice> best, near_miss;
         // Lines are taken in order of `Line::cost`. `judge()` adds the cost of the number of edges, so
         // `Line::cost` is a lower bound of the total cost. The search therefore ends after few lines.
         const auto later = [](const Line& a, const Line& b) { return a.cost > b.cost; };
@@ -63,10 +67,15 @@ private:
             const Line& next = *--end;
             if (best && next.cost >= best->cost) break;
             const auto choice = judge(next, best ? best->cost : kInfinity);
-            if (choice && sides_.is_clear(cycle_[next.from], cycle_[next.to])) best = choice;
+            if (!choice || !sides_.is_clear(cycle_[next.from], cycle_[next.to])) continue;
+            if (keeps_away(*choice, kAway))
+                best = choice;
+            else if (!near_miss || choice->cost < near_miss->cost)
+                near_miss = choice;
         }
-        if (!best) return std::nullopt;
-        return refine(*best).cut;
+        if (best) return refine(*best, kAway).cut;
+        if (near_miss) return refine(*near_miss, 0).cut;
+        return std::nullopt;
     }
 
     struct Choice {
@@ -88,6 +97,21 @@ private:
     }
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
+
+    /// Whether the distance of a line from all nodes that it passes is at least this share of its edge
+    /// length.
+    [[nodiscard]] bool keeps_away(const Choice& c, double away) const
+    {
+        const Vec2 &a = at(c.cut.from), &b = at(c.cut.to), along = b - a;
+        const double length = along.norm(), least = away * (length / static_cast<double>(c.cut.edges));
+        const Vec2 low = a.cwiseMin(b) - Vec2::Constant(least), high = a.cwiseMax(b) + Vec2::Constant(least);
+        return std::ranges::none_of(cycle_, [&](Index p) {
+            const Vec2& x = partial_.at(p);
+            if (x.x() < low.x() || x.y() < low.y() || x.x() > high.x() || x.y() > high.y()) return false;
+            const double at = (x - a).dot(along) / length;
+            return at > least && at < length - least && std::abs(cross(along, x - a)) < least * length;
+        });
+    }
 
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
@@ -113,9 +137,9 @@ private:
         const Vec2 along = at(j) - at(i);
         const double heading = std::atan2(along.y(), along.x());
         const double part_i = whole_turn(heading - heading_[i]);
-        if (is_sliver(part_i, angles_[i])) return std::nullopt;
+        if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle) return std::nullopt;
         const double part_j = whole_turn(heading + std::numbers::pi - heading_[j]);
-        if (is_sliver(part_j, angles_[j])) return std::nullopt;
+        if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
         const double arc = arc_[j] - arc_[i];
         // Length relative to the outline that the line cuts off.
         const double reach = along.norm() / std::min(arc, arc_[n_] - arc);
@@ -211,7 +235,7 @@ private:
 
     /// Try the nodes near the ends of a line, in decreasing steps. This is not needed if all nodes were
     /// tried.
-    [[nodiscard]] Choice refine(Choice best) const
+    [[nodiscard]] Choice refine(Choice best, double away) const
     {
         if (stride_ == 1) return best;
         const auto consider = [&](std::size_t one, std::size_t other) {
@@ -219,7 +243,8 @@ private:
             if (i == j) return;
             const auto line = line_between(i, j);
             const auto choice = line ? judge(*line, best.cost) : std::nullopt;
-            if (choice && sides_.is_clear(cycle_[i], cycle_[j])) best = *choice;
+            if (choice && sides_.is_clear(cycle_[i], cycle_[j]) && (away == 0 || keeps_away(*choice, away)))
+                best = *choice;
         };
         for (std::size_t step = stride_; step > 0; step /= 2) {
             const Choice start = best;

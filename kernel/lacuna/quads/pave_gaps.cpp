@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_gaps.h>
 
-#include <lacuna/core/shared/limits.h>
-
 namespace lacuna::quads::paving {
 
 GapFinder::GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops) : partial_(partial)
@@ -17,9 +15,11 @@ GapFinder::GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops
     });
     low_ = box.min();
     diagonal_ = box.sizes().norm();
-    // Cells are as wide as a mean side, but a long side is in at most kMostSamples cells.
-    cell_ = std::max(
-        {sum / count, box.sizes().maxCoeff() / kMostSamples, std::numeric_limits<double>::min()});
+    // Cells are as wide as a mean side, but there are at most kMostCells cells in each direction, so that a
+    // long side is in a limited number of cells. With more cells, sides are found faster, but the cells need
+    // more memory and more time to fill.
+    constexpr double kMostCells = 4096;
+    cell_ = std::max({sum / count, box.sizes().maxCoeff() / kMostCells, std::numeric_limits<double>::min()});
     for_sides_of(loops, [&](Index from, Index to) {
         const Vec2 a = (partial.at(from) - low_) / cell_, b = (partial.at(to) - low_) / cell_;
         const auto steps = static_cast<int>((b - a).cwiseAbs().maxCoeff() * 2) + 1;
@@ -58,9 +58,11 @@ double GapFinder::ahead(Index before, Index node, Index after, const Vec2& direc
                 const double det = cross(direction, along);
                 if (det == 0) continue;
                 const double t = cross(from, along) / det, s = cross(from, direction) / det;
-                // A ray that passes an end of a side this closely counts as meeting the side, or rows might
-                // meet.
-                if (t > 0 && s >= -kOnePoint && s <= 1 + kOnePoint) nearest = std::min(nearest, t);
+                // A ray that passes an end of a side within a fifth of the side's length counts as meeting
+                // the side. With a larger share, rows near such ends are lower. With a smaller share, rows
+                // may meet.
+                constexpr double kBeyond = 0.2;
+                if (t > 0 && s >= -kBeyond && s <= 1 + kBeyond) nearest = std::min(nearest, t);
             }
         }
     }

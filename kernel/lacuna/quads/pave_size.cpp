@@ -2,7 +2,6 @@
 #include <lacuna/quads/detail/pave_size.h>
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <cmath>
@@ -116,21 +115,27 @@ private:
 
 } // namespace
 
-SizeField size_with_boundary(const PlanarRegion& region)
+BoundarySizes sizes_with_boundary(const PlanarRegion& region)
 {
+    // A side has about the requested length if the two lengths differ by less than these factors. With higher
+    // factors, the size is graded less often, so edge lengths jump more at the boundary.
+    constexpr double kAlike = 1.6, kRingAlike = 1.75;
     const std::vector<BoundarySide> sides = sides_of(region);
     double sum = 0;
     for (const BoundarySide& side : sides) sum += side.length;
     SizeField asked = region.size;
     if (!asked) asked = [mean = sum / static_cast<double>(sides.size())](const Vec2&) { return mean; };
-    const auto is_of_size = [&](const BoundarySide& side) {
-        const double size = asked(side.middle);
-        return std::max(side.length, size) < kLongestOfSize * std::min(side.length, size);
+    const auto are_alike = [&](double most) {
+        return std::ranges::all_of(sides, [&](const BoundarySide& side) {
+            const double size = asked(side.middle);
+            return side.length < most * size && size < most * side.length;
+        });
     };
-    if (std::ranges::all_of(sides, is_of_size)) return asked;
-    return [asked, bounds = std::make_shared<const SizeBounds>(sides)](const Vec2& p) {
+    if (are_alike(kAlike)) return {asked, asked};
+    const SizeField limited = [asked, bounds = std::make_shared<const SizeBounds>(sides)](const Vec2& p) {
         return bounds->limit(p, asked(p));
     };
+    return {limited, are_alike(kRingAlike) ? asked : limited};
 }
 
 double quads_within(const PlanarRegion& region)

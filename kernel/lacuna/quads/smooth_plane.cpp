@@ -3,7 +3,6 @@
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/quads/detail/plane_energy.h>
@@ -25,6 +24,23 @@ constexpr double kStill = 0.02;
 /// a tenth of the sweeps is enough to remove errors that span many quads. Measured: with 1.5 and 1.7 more
 /// sweeps are needed, and 1.9 overshoots between poor quads.
 constexpr double kOverstep = 1.85;
+
+/// Whether some side is far shorter than every side between two fixed points. Both ends of such a side nearly
+/// coincide, although the sines may be good.
+bool has_needles(std::span<const Vec2> points, std::span<const Quad> quads, std::size_t fixed)
+{
+    // A side that is shorter than this share of the shortest fixed side is a needle.
+    constexpr double kOfShortest = 0.05;
+    double given = kInfinity, shortest = kInfinity;
+    for (const Quad& quad : quads) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::size_t a = index(quad[k]), b = index(quad[(k + 1) % 4]);
+            double& least = a < fixed && b < fixed ? given : shortest;
+            least = std::min(least, (points[a] - points[b]).squaredNorm());
+        }
+    }
+    return given < kInfinity && shortest < kOfShortest * kOfShortest * given;
+}
 
 class Smoother {
 public:
@@ -147,8 +163,10 @@ private:
             const Vec2 step(-(here.yy * here.slope.x() - here.xy * here.slope.y()) / det,
                             -(here.xx * here.slope.y() - here.xy * here.slope.x()) / det);
             const double side = here.sides / static_cast<double>(2 * star.size());
+            // Number of step lengths that are tried, each shorter than the previous one. Not measured.
+            constexpr int kTries = 4;
             double length = overstep;
-            for (int tries = 0; tries < kMostSteps; ++tries, length = (length > 1 ? 1 : length / 2)) {
+            for (int tries = 0; tries < kTries; ++tries, length = (length > 1 ? 1 : length / 2)) {
                 const Vec2 to = points_[p] + length * step;
                 const double least = floor * floor;
                 double energy = lanes.energy(to, areas_.weight, least);
@@ -191,8 +209,8 @@ private:
         const double reach = shortest_side(points_, star, points_[p]);
         double sum = 0;
         for (const Spoke& spoke : star) sum += (points_[index(spoke.next)] - points_[p]).norm();
-        const double shortest = std::max(least_side_[p],
-                                         std::min(reach, kOnePoint * sum / static_cast<double>(star.size())));
+        const double shortest = std::max(
+            least_side_[p], std::min(reach, kShortestKept * sum / static_cast<double>(star.size())));
         const double before = least_sine(points_, star, points_[p]);
         std::size_t first = 0;
         const auto sine_at = [&](const Vec2& to, double floor) {
@@ -228,7 +246,8 @@ void smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::s
     }
     Smoother smoother(points, quads, fixed, options);
     smoother.ask_sizes(context);
-    const double floor = std::max(0.0, least);
+    // Points that nearly coincide can separate only if sines may decrease in the meantime.
+    const double floor = has_needles(points, quads, fixed) ? 0 : std::max(0.0, least);
     for (int i = 0; i < options.sweeps; ++i) {
         check_cancelled(context);
         const double overstep = i == 0 || i + 1 == options.sweeps ? 1 : kOverstep;

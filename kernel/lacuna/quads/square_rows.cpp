@@ -46,18 +46,18 @@ public:
         floor_ = std::max(kGood, least_scaled_jacobian(mesh.points, mesh.quads));
     }
 
-    /// Move each node once. @return whether any node moved
-    bool round()
+    /// Move each node once. @return the largest move, as a share of the mean length of the node's sides
+    double round()
     {
-        bool any = false;
+        double most = 0;
         for (const Index p : nodes_to_move()) {
             if (is_settled(p)) continue;
-            const bool moved = move(p);
+            const double way = move(p);
             ++searches_;
-            for_images(p, [&](Index image) { (moved ? moved_ : searched_)[index(image)] = searches_; });
-            any = any || moved;
+            for_images(p, [&](Index image) { (way > 0 ? moved_ : searched_)[index(image)] = searches_; });
+            most = std::max(most, way);
         }
-        return any;
+        return most;
     }
 
 private:
@@ -66,10 +66,13 @@ private:
     //   stricter than kRowOffRight and kRowOffHeight.
     // - kShape: weight of the shape energy of the quads.
     // - kGivenUp: the cost at which the weight of a row is half.
+    // - kShorter and kLonger: the range of side lengths that the search aims at, relative to the requested
+    //   size.
     // Each was chosen from a few values: these give the most good rows on 70 outlines of the held family
     // (benchmarks/pave/) without worse quads between sharp corners.
     static constexpr double kGood = 0.7;
     static constexpr double kOffRight = 0.3, kOffHeight = 0.24, kShape = 0.002, kGivenUp = 0.5;
+    static constexpr double kShorter = kShortestOfSize + 0.02, kLonger = kLongestOfSize - 0.05;
 
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
 
@@ -210,7 +213,7 @@ private:
         for (const Spoke& spoke : stars_[index(p)]) {
             const double asked = (asked_[index(p)] + asked_[index(spoke.next)]) / 2;
             const double length = (at(spoke.next) - at(p)).norm() / asked;
-            const double off = std::max({0.0, kShortestOfSize - length, length - kLongestOfSize});
+            const double off = std::max({0.0, kShorter - length, length - kLonger});
             cost += off * off;
         }
         return cost;
@@ -264,9 +267,11 @@ private:
         return cost;
     }
 
-    /// @return whether the node moved.
-    bool move(Index p)
+    /// @return length of the move, as a share of the mean length of the node's sides.
+    double move(Index p)
     {
+        // First and last step, as shares of the mean side. Not measured.
+        constexpr double kFirst = 0.08, kLast = 0.009;
         const auto star = stars_[index(p)];
         double side = 0;
         for (const Spoke& spoke : star)
@@ -282,17 +287,17 @@ private:
             return cost < -least && least_sine(mesh_.points, star, at(p)) >= floor ? -cost : least;
         };
         Vec2 x = start;
-        geometry::pattern_search(x, -cost_above(p, kInfinity), {side}, value, ways_);
+        geometry::pattern_search(x, -cost_above(p, kInfinity), {side, 0, kFirst, kLast}, value, ways_);
         place(p, x);
         if (x == start) {
             for (std::size_t i = 0; i < near_.size(); ++i)
                 mesh_.points[index(near_[i]->to[index(p)])] = kept_[i];
-            return false;
+            return 0;
         }
         for (const Symmetry& symmetry : symmetries_) {
             if (symmetry.to[index(p)] != p) mesh_.points[index(symmetry.to[index(p)])] = symmetry.map(at(p));
         }
-        return true;
+        return (at(p) - start).norm() / side;
     }
 
     PlanarQuads& mesh_;
@@ -315,10 +320,15 @@ private:
     double floor_ = kGood;
 };
 
-/// Value of a mesh for comparison, see `square_rows()`.
+/// Value of a mesh for comparison, see `square_rows()`. The part of a share above `kPromisedShare` counts
+/// only a quarter, so that it does not outweigh poor quads.
 double worth_of(const PlaneQuality& quality)
 {
-    return quality.mean_scaled_jacobian + quality.row_share() / 2 + quality.size_share() / 2;
+    constexpr double kBeyond = 0.25;
+    const auto share = [](double x) {
+        return std::min(x, kPromisedShare) + kBeyond * std::max(0.0, x - kPromisedShare);
+    };
+    return quality.mean_scaled_jacobian + share(quality.row_share()) / 2 + share(quality.size_share()) / 2;
 }
 
 /// Move nodes as long as this increases the value of the mesh.
@@ -326,13 +336,14 @@ double worth_of(const PlaneQuality& quality)
 void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries, bool sizes,
              PlaneQuality& quality)
 {
+    constexpr double kStill = 0.03; // share of a side: smaller moves do not count as moves
     const PlaneQuality before = quality;
     const double rounding = symmetries.empty() ? 0 : kFileAccuracy;
     const auto keeps = [](double was, double is) { return is >= kPromisedShare || was < kPromisedShare; };
     PlanarQuads made = mesh;
     RowSquarer squarer(made, region, symmetries, sizes);
     for (int round = 0, idle = 0; round < kMostSteps && idle < kIdleRounds; ++round, ++idle) {
-        const bool any = squarer.round();
+        const double most = squarer.round();
         const PlaneQuality after = measure_plane(made, region);
         if (worth_of(after) > worth_of(quality) &&
             after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kSameQuality &&
@@ -342,7 +353,7 @@ void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symm
             idle = -1;
             mesh.points = made.points;
         }
-        if (!any) break;
+        if (most < kStill) break;
     }
 }
 

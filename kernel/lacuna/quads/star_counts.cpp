@@ -81,7 +81,7 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
                 quads += foot[i] * foot[(i + 1) % n];
             }
             if (!is_allowed || !are_alike(counts.sides, pairs)) continue;
-            counts.cost += cost_of_quads(quads, asked);
+            counts.cost += kWeightOfQuads * (quads - asked) * (quads - asked) / asked;
             if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOffAsked;
             if (counts.cost < (best ? best->cost : kInfinity)) best = std::move(counts);
         }
@@ -93,10 +93,12 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
 
 std::optional<std::vector<int>> star_counts(const CountTask& task)
 {
+    // Minimum ratio between the smallest and the largest width of a grid. Not measured.
+    constexpr double kBalanced = 0.5;
     const std::vector<std::size_t> sides = sides_of_patch(task);
     if (sides.size() != 3 && sides.size() != 5) return std::nullopt;
     const std::vector<double> feet = wanted_feet(task, sides);
-    if (std::ranges::min(feet) < 0) return std::nullopt;
+    if (std::ranges::min(feet) < kBalanced * std::ranges::max(feet)) return std::nullopt;
     std::optional<Counts> best;
     for (const CountRange& range : {kSegment, kRingSegment}) {
         auto found = best_near(task, sides, feet, range);

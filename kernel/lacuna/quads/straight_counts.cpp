@@ -2,7 +2,11 @@
 #include <lacuna/quads/detail/straight_counts.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/detail/pattern_ring.h>
+#include <lacuna/quads/detail/pave_choice.h>
+#include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
 
 #include <algorithm>
@@ -14,20 +18,26 @@
 namespace lacuna::quads {
 namespace {
 
+bool may_be_tried(const CountTask& task, const StraightOptions& options)
+{
+    return !options.is_part && quads_asked(task) < kFewQuads;
+}
+
 /// The loops of a region with headings in a straight grid.
 struct HeadedLoops {
     std::vector<PatternLoop> loops;
     LoopFrame frame;
+    TurnStyle style = TurnStyle::soft;
     int fitting = 1;    ///< number of rows that suits the soft turns (`fitting_rows()`)
     bool turns = false; ///< whether there are soft turns
 };
 
 /// @return empty if a loop does not turn once around.
-std::optional<HeadedLoops> head_loops(const PlanarRegion& region)
+std::optional<HeadedLoops> head_loops(const PlanarRegion& region, TurnStyle style)
 {
-    HeadedLoops headed{{}, straight_frame(region)};
+    HeadedLoops headed{{}, straight_frame(region), style};
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
-        auto loop = head_loop(region.points, region.loops[l], headed.frame);
+        auto loop = head_loop(region.points, region.loops[l], headed.frame, style);
         if (!loop || loop->turns != (l == 0 ? 4 : -4)) return std::nullopt;
         headed.fitting = std::max(headed.fitting, fitting_rows(*loop));
         headed.turns = headed.turns || std::ranges::find(loop->movable, 1) != loop->movable.end();
@@ -66,7 +76,7 @@ std::optional<LoopGrid> loop_grid(const CountTask& task, std::size_t l, const Co
     });
     std::vector<Index> nodes(made.points.size());
     std::iota(nodes.begin(), nodes.end(), 0);
-    auto headed = head_loop(made.points, nodes, as.frame);
+    auto headed = head_loop(made.points, nodes, as.frame, as.style);
     if (headed) set_soft_rows(*headed, rows);
     const double mean = length / static_cast<double>(nodes.size());
     std::vector<Quad> quads;
@@ -100,6 +110,20 @@ bool have_place(const std::vector<LoopGrid>& grids)
         }
     }
     return SubmapGrid(loops).enclose(loops);
+}
+
+/// Whether some quads between two loops would be much flatter than the size requires.
+bool are_close(const CountTask& task)
+{
+    constexpr double kNarrow = 0.5; // share of the size asked. Not measured
+    const double narrow = kNarrow * mean_size(task);
+    const PlanarRegion& region = task.region;
+    for (std::size_t l = 1; l < region.loops.size(); ++l) {
+        for (std::size_t m = 0; m < l; ++m) {
+            if (ring_widths(region.points, region.loops[m], region.loops[l]).least < narrow) return true;
+        }
+    }
+    return false;
 }
 
 /// Give a hole an even number of columns if its centre lies on a line of the outer loop's grid, and an odd
@@ -165,9 +189,10 @@ std::vector<int> run_counts(const ClosedLoops& closed)
     return counts;
 }
 
-} // namespace
-
-std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
+/// Solutions for one style of ends. Several numbers of rows in front of soft turns and several factors on the
+/// wanted sides are tried.
+/// @return  the solutions with their costs. For a part, only solutions that may be the cheapest one.
+std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, TurnStyle style)
 {
     // Cost of mirrored segments with unequal numbers; it nearly excludes them. Not measured.
     constexpr double kUnlike = 10;
@@ -179,35 +204,40 @@ std::optional<Counts> straight_counts(const CountTask& task, const StraightOptio
     constexpr double kOff = 2, kNearAsked = 0.1, kMany = 2000;
     // Factors on the wanted sides; not measured.
     constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5};
+    constexpr std::size_t kNear = 4; // the first of these factors, which are tried within the promised range
     const double asked = quads_asked(task);
-    const auto headed = head_loops(task.region);
-    if (!headed) return std::nullopt;
+    const auto headed = head_loops(task.region, style);
+    if (!headed || (options.few && are_close(task))) return {};
     const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
-    std::optional<Counts> best;
+    std::vector<Counts> all;
+    double least = kInfinity; // the lowest cost so far
     // More rows are tried only for a part with soft turns. Only a part has axes that can take up the
     // additional sides, and without soft turns the number of rows has no effect.
     const std::vector<int> all_rows = options.is_part && headed->turns ? rows_to_try(headed->fitting)
                                                                        : std::vector<int>{1};
+    const bool wide = options.range.most > kSegment.most;
+    const std::span<const double> shares = std::span(kShares).first(wide ? kShares.size() : kNear);
     for (const int rows : all_rows) {
         std::set<std::vector<int>> known;
-        for (const double share : kShares) {
+        for (const double share : shares) {
             auto closed = close_loops(task, *headed, rows, share, options.range);
             if (!closed) continue;
             if (!known.insert(run_counts(*closed)).second) continue;
             Counts counts{counts_of(task, closed->loops), closed->cost};
             // A symmetric region needs symmetric numbers.
             if (!options.is_part && !are_alike(counts.sides, pairs)) continue;
+            double of_part = 0;
             if (options.is_part) {
                 const int fitting = headed->fitting;
                 const double off = std::log(static_cast<double>(rows) / fitting);
-                counts.cost += closed->soft * std::max(1.0, fitting / 2.0) * off * off +
-                               kUnlike * unlike(counts.sides, pairs);
-                if (best && counts.cost >= best->cost) continue;
+                of_part = closed->soft * std::max(1.0, fitting / 2.0) * off * off +
+                          kUnlike * unlike(counts.sides, pairs);
+                if (counts.cost + of_part >= least) continue;
             }
             add_grids(task, *headed, rows, *closed);
             const bool has_grids = closed->grids.size() == closed->loops.size();
             const double quads = has_grids ? closed->quads : asked; // unknown if a loop has no grid
-            counts.cost += cost_of_quads(quads, asked);
+            counts.cost += kWeightOfQuads * (quads - asked) * (quads - asked) / asked + of_part;
             const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
             if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOff;
             // Check that the grid has room for the holes. A grid with few lines may not have room. With many
@@ -215,15 +245,93 @@ std::optional<Counts> straight_counts(const CountTask& task, const StraightOptio
             const bool looks = options.is_part ? options.few : asked < kMany;
             const bool has_place = !looks || (has_grids && have_place(closed->grids));
             if (!has_place) counts.cost += kOff;
-            if ((!options.few || has_place) && (!best || counts.cost < best->cost)) {
+            if (!options.few || has_place) {
+                least = std::min(least, counts.cost);
+                all.push_back(counts);
                 if (closed->loops.size() > 1 && !closed->grids.empty()) {
                     centre_holes(task, closed->loops, closed->grids.front());
-                    counts.sides = counts_of(task, closed->loops);
+                    all.back().sides = counts_of(task, closed->loops);
+                    // `best_filled()` chooses between the numbers before and after centring the holes.
+                    if (may_be_tried(task, options)) all.push_back(std::move(counts));
                 }
-                best = std::move(counts);
             }
-            if (!options.is_part && fits && has_place) return best;
+            if (!options.is_part && fits && has_place) return all;
         }
+    }
+    return all;
+}
+
+bool is_cheaper(const Counts& a, const Counts& b) { return a.cost < b.cost; }
+
+/// Score of the best grid that `fill_patterns()` makes with these numbers of sides. It is the grid's
+/// `paving::score_of()`, minus a penalty for a number of quads that differs from the requested one. Nodes are
+/// spaced evenly along the region's own sides, so round segments become slightly flatter. Empty if no grid
+/// can be made.
+std::optional<double> score_of_counts(const CountTask& task, std::span<const int> counts)
+{
+    // Penalty for the number of quads. It is kWorth if the number differs by a quarter from the requested
+    // one, and quadratic in this difference. Mean scaled Jacobians usually differ by less than kWorth.
+    constexpr double kWorth = 0.2;
+    const double asked = quads_asked(task);
+    PlanarRegion made;
+    made.size = task.region.size;
+    made.row_height = task.region.row_height;
+    for (const Cycle& loop : task.region.loops) {
+        Cycle& nodes = made.loops.emplace_back();
+        for (const Vec2& p : divided_loop(task, loop, counts)) {
+            nodes.push_back(static_cast<Index>(made.points.size()));
+            made.points.push_back(p);
+        }
+    }
+    const std::vector<PlanarQuads> meshes = fill_patterns(made);
+    made.size = paving::sizes_with_boundary(made).ring;
+    std::optional<double> best;
+    for (const PlanarQuads& mesh : meshes) {
+        const double off = (static_cast<double>(mesh.quads.size()) / asked - 1) / kQuadsOff;
+        best = std::max(best.value_or(-1), paving::score_of(measure_plane(mesh, made)) - kWorth * off * off);
+    }
+    return best;
+}
+
+/// The solution whose grid has the best measured quality. Solutions are tried in order of their cost until a
+/// grid is good. Empty if no grid is valid, or if there is only one solution.
+std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all)
+{
+    constexpr double kGood = 3.1; // score at which the search ends, to limit the time. Not measured
+    std::ranges::stable_sort(all, is_cheaper);
+    const auto alike = [](const Counts& a, const Counts& b) { return a.sides == b.sides; };
+    all.erase(std::unique(all.begin(), all.end(), alike), all.end());
+    if (all.size() < 2) return std::nullopt;
+    std::optional<Counts> best;
+    double most = -kInfinity;
+    for (std::size_t i = 0; i < std::min(kCandidates, all.size()) && most < kGood; ++i) {
+        const auto score = score_of_counts(task, all[i].sides);
+        if (!score || *score <= most) continue;
+        most = *score;
+        best = all[i];
+    }
+    return best;
+}
+
+} // namespace
+
+std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
+{
+    // The cost of solutions with soft turns at ends of 135° is divided by this number, which was chosen like
+    // `kWeightOfQuads`.
+    constexpr double kSoft = 2;
+    std::vector<Counts> all = counts_looked_at(task, options, TurnStyle::soft);
+    const auto add = [&](TurnStyle style) {
+        for (Counts& counts : counts_looked_at(task, options, style)) all.push_back(std::move(counts));
+    };
+    if (may_be_tried(task, options) && has_doubtful_turns(task.region)) add(TurnStyle::few_soft);
+    for (Counts& counts : all) counts.cost /= kSoft;
+    if (has_half_ends(task.region)) add(TurnStyle::hard_ends);
+    const auto least = std::ranges::min_element(all, is_cheaper);
+    if (least == all.end()) return std::nullopt;
+    Counts best = *least;
+    if (may_be_tried(task, options)) {
+        if (auto filled = best_filled(task, std::move(all))) return filled;
     }
     return best;
 }

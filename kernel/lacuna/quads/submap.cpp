@@ -28,6 +28,16 @@ std::size_t corner_count(const GridLoop& loop)
 
 } // namespace
 
+int grid_quads(double angle)
+{
+    constexpr double kOff = kRightAngle * 4 / 9; // 40°, which leaves a sine of 0.77 at a corner. Not measured
+    const int quads = quads_in(angle);
+    // If an angle is nearest to a straight angle, it is always a side: outlines with few nodes bend by up to
+    // 45° at each node.
+    if (quads == 2) return 2;
+    return quads <= 4 && std::abs(angle - quads * kRightAngle) <= kOff ? quads : 0;
+}
+
 std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& context)
 {
     const std::size_t fixed = region.points.size();
@@ -49,8 +59,17 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     const bool four_sided = loops.size() == 1 && corner_count(loops.front()) == 4;
     PlanarQuads mesh{region.points, {}, four_sided ? "mapped" : "submapped"};
     grid.add_cells(mesh);
-    const auto size = paving::size_with_boundary(region);
-    smooth_plane(mesh.points, mesh.quads, fixed, {.size = size}, context);
+    const auto size = paving::sizes_with_boundary(region).usual;
+    smooth_plane(mesh.points, mesh.quads, fixed, {.size = size, .repairs = 0}, context);
+    // Poor quads are improved one by one only if their share of all quads is at most this. A grid that is
+    // poor everywhere would not become good.
+    constexpr double kFewPoor = 0.1;
+    const SmoothPlaneOptions repairs{.size = size, .sweeps = 0, .untangle = false};
+    const auto poor = std::ranges::count_if(mesh.quads, [&](const Quad& quad) {
+        return scaled_jacobian(mesh.points, quad) < repairs.good_enough;
+    });
+    if (static_cast<double>(poor) <= kFewPoor * static_cast<double>(mesh.quads.size()))
+        smooth_plane(mesh.points, mesh.quads, fixed, repairs, context);
     if (!find_fault(mesh, region).empty()) return std::nullopt;
     return mesh;
 }

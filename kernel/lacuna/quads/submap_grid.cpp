@@ -27,7 +27,8 @@ std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<
     GridPosition position{0, 0};
     int heading = 0, sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const int quads = quads_in(corner_angle(points, loop, i));
+        const int quads = grid_quads(corner_angle(points, loop, i));
+        if (quads == 0) return std::nullopt;
         sum += 2 - quads;
         // The first side runs along the first axis, whatever the angle at its start is.
         if (i > 0) heading += 2 - quads;

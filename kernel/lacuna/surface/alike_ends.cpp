@@ -19,6 +19,10 @@ using namespace topology;
 
 namespace {
 
+/// Two vertices without a side line are paired only if their positions on the two rims, as shares of the
+/// rims' lengths, differ by less than this. Heuristic.
+constexpr double kFarRound = 0.125;
+
 /// An item of a face's loop: an inner edge, or a sequence of rim edges between two inner edges.
 struct Item {
     EdgeUse use; ///< for a rim item: the first edge use of the sequence
@@ -112,7 +116,8 @@ private:
         }
         for (std::size_t i = 0; i < n; ++i) {
             const End& other = high[(i + best) % n];
-            if (lines_before(link, low[i].at) != lines_before(link, other.at)) return false;
+            if (off(i, best) > kFarRound || lines_before(link, low[i].at) != lines_before(link, other.at))
+                return false;
             result_.pairs.push_back({low[i].vertex, other.vertex});
         }
         return true;

@@ -2,7 +2,7 @@
 #include <lacuna/surface/detail/face_sides.h>
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/submap.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/facet_area.h>
 
@@ -85,7 +85,8 @@ std::vector<SidePair> grid_sides(const Model& model, FaceId face)
         std::array<std::vector<EdgeId>, 4> along;
         int heading = 0, turns = 0;
         for (std::size_t i = 0; i < loop.uses.size(); ++i) {
-            const int quads = quads::quads_in(inner_angle(model, face, loop, i) * kDegree);
+            const int quads = quads::grid_quads(inner_angle(model, face, loop, i) * std::numbers::pi / 180);
+            if (quads == 0) return {};
             turns += 2 - quads;
             if (i > 0) heading = (heading + 2 - quads + 8) % 4;
             along[static_cast<std::size_t>(heading)].push_back(loop.uses[i].edge);

@@ -289,7 +289,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         }
         areas.push_back(geometry::newell_vector(ring).stableNormalized());
         ring.push_back(ring.front());
-        middles.push_back(geometry::mean_point(geometry::even_places(ring, kFineChords)));
+        middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
         widths.push_back(geometry::length(ring) / kFullTurn);
     }
     // The direction of the sweep at each section is that of the line through the centres. If the sections are
@@ -308,7 +308,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         round.push_back(geometry::arc_lengths(rings[k]));
         const double length = round.back().back();
         for (double& at : round.back()) at /= length;
-        std::vector<Vec3> even = geometry::even_places(rings[k], kFineChords);
+        std::vector<Vec3> even = geometry::even_places(rings[k], kRingPoints);
         even.pop_back();
         if (k == 0) first = even;
         if (k > 0) turn = geometry::least_turn(ways[k - 1], ways[k]) * turn;

@@ -2,7 +2,6 @@
 #include <lacuna/surface/shared/quads_asked.h>
 
 #include <lacuna/surface/detail/face_sides.h>
-#include <lacuna/surface/detail/width_sizes.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -19,6 +18,8 @@ namespace {
 
 /// The size counts as uniform on a facet or side if the ratio of its values there is at most this. Heuristic.
 constexpr double kOneSize = 1.5;
+/// Facets and sides are not subdivided if they are shorter than this multiple of the size.
+constexpr double kFewSides = 2;
 
 using Facet = std::array<Vec3, 3>;
 using Segment = std::array<Vec3, 2>;
@@ -59,7 +60,7 @@ double asked_on(const std::array<Vec3, n>& whole, const SizeField& size, double 
         std::size_t k = 0;
         for (std::size_t i = 1; i < n; ++i)
             if (side(i) > side(k)) k = i;
-        if (side(k) <= kApart * here || is_even(part, size, here)) {
+        if (side(k) <= kFewSides * here || is_even(part, size, here)) {
             asked += asked_by(here, part);
             continue;
         }

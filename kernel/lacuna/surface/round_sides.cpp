@@ -2,7 +2,6 @@
 #include <lacuna/surface/detail/round_sides.h>
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/quads/shared/pattern_counts.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -15,6 +14,13 @@
 namespace lacuna::surface {
 
 using namespace topology;
+
+namespace {
+
+/// Relative depth of the rows along a round side, as in the disc patterns (`quads::pattern_counts()`).
+constexpr double kRowsOfRadius = 1.0 / 3;
+
+} // namespace
 
 std::optional<RoundSide> bulge_of(const Model& model, FaceId face,
                                   const std::vector<std::vector<EdgeId>>& sides, const SizeField& size)
@@ -43,7 +49,7 @@ std::optional<RoundSide> bulge_of(const Model& model, FaceId face,
 double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_t>& round, std::size_t rows,
                  IntervalProgram& program)
 {
-    const double deep = quads::kRowsOfRadius * bulge.radius, angle = bulge.turn / parts / 2;
+    const double deep = kRowsOfRadius * bulge.radius, angle = bulge.turn / parts / 2;
     // The inner line of one part has three points: a corner on the ray through the middle of the part, and
     // its ends on the rays through the ends of the part. All three have the same distance from the round
     // side.

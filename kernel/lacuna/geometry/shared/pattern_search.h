@@ -10,13 +10,14 @@
 
 namespace lacuna::geometry {
 
-/// Longest and shortest step of `pattern_search()`, as shares of `PatternSteps::scale`. Shorter steps gain
-/// little.
+/// Usual longest and shortest step of `pattern_search()`, as shares of `PatternSteps::scale`. Shorter steps
+/// gain little.
 inline constexpr double kLongestStep = 1.0 / 4, kShortestStep = 1.0 / 256;
 
 struct PatternSteps {
     double scale;          ///< unit of the step lengths, such as the length of a side at the point
     double least_gain = 0; ///< required increase of the value for a step of length `scale`, >= 0
+    double longest = kLongestStep, shortest = kShortestStep; ///< [of `scale`]
 };
 
 /// Eight directions, every 45°.
@@ -43,7 +44,7 @@ double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Val
                       std::span<const Vec2> directions = all_around())
 {
     // Halving the share ends for a scale of 0 too, as where two points coincide.
-    for (double share = kLongestStep; share >= kShortestStep; share /= 2) {
+    for (double share = steps.longest; share >= steps.shortest; share /= 2) {
         const double step = share * steps.scale;
         bool better = true;
         // The limit is needed because values may increase by rounding alone.

@@ -3,8 +3,8 @@
 
 /// The sine of the corners of planar quads, the quality measure of this folder.
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/plane.h>
-#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 
@@ -12,6 +12,9 @@ namespace lacuna::quads {
 
 using geometry::cross;
 using geometry::turn_between;
+
+/// Number of quads that suits an angle: the number of right angles nearest to it, at least one.
+inline int quads_in(double angle) { return std::max(1, static_cast<int>(angle / kRightAngle + 0.5)); }
 
 /// Sine of a corner; 0 if one of its sides has no length.
 /// @param area     cross product of the two sides

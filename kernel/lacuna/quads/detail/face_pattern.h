@@ -21,7 +21,7 @@ namespace lacuna::quads {
 ///    inward. There are no other irregular nodes, so their number is the smallest that the boundary's corners
 ///    allow.
 /// 3. Soft turns are moved along the loop until the loop closes in the grid. If that is not enough, other
-///    turns are moved too, as long as all angles stay between 45° and 135°.
+///    turns are moved too, as long as all angles stay between 54° and 126°.
 /// 4. Holes are placed in the grid at the interpolated grid coordinates of their boundary.
 /// 5. The grid's cells within the loops become the quads. Inner nodes are smoothed.
 ///
@@ -36,6 +36,10 @@ namespace lacuna::quads {
 /// rows only. Slots, rounded rectangles, plates with holes, and flanges get one grid each, with four
 /// irregular nodes for each round loop.
 ///
+/// Ends of 135° (nodes halfway between an end and a side, see `TurnStyle`) are tried as soft turns first.
+/// Unless this gives a mesh of nearly square quads, they are tried as hard turns. After that, headings with
+/// fewer soft turns that fit almost as well are tried (`TurnStyle::few_soft`), for example at the blunt end
+/// of a slit.
 /// @return  valid meshes, the most promising first: meshes with grid lines around a hole, then meshes with
 ///         straight grid lines, both in order of their number of rows. The search stops after a mesh that
 ///         cannot be improved much. Empty if the numbers of sides fit no grid, or quads would fold.

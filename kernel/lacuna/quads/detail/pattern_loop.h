@@ -61,6 +61,21 @@ struct PatternLoop {
     }
 };
 
+/// How the grid turns at doubtful nodes: nodes whose angle is about halfway between an end (90°) and a side
+/// (180°), called ends of 135°, and nodes whose angle is between a side and a corner (270°).
+enum class TurnStyle {
+    /// The grid turns where this fits the boundary best. Where the boundary itself turns less, the turn is
+    /// soft.
+    soft,
+    hard_ends, ///< as `soft`, but at an end of 135° one quad takes the whole angle
+    /// The grid turns at the boundary's own corners if this fits almost as well as `soft`, because every soft
+    /// turn adds an irregular node.
+    few_soft,
+};
+
+/// Whether a region's boundary has ends of about 135°.
+bool has_half_ends(const PlanarRegion& region);
+
 /// Give every side of a loop a heading.
 ///
 /// Dynamic programming finds the headings of least total cost. A side costs the square of the difference
@@ -68,7 +83,11 @@ struct PatternLoop {
 /// turn and the headings' turn. Every soft turn gets one row.
 /// @return empty if corners are too sharp for any headings.
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
-                                     const LoopFrame& frame);
+                                     const LoopFrame& frame, TurnStyle style = TurnStyle::soft);
+
+/// Whether a straight grid gives some loop other headings with `TurnStyle::few_soft` than with
+/// `TurnStyle::soft`.
+bool has_doubtful_turns(const PlanarRegion& region);
 
 /// The number of rows that suits the soft turns at which the region bulges: together, the rows are about as
 /// high as a third of the radius of the widest of these turns. 1 if there is no such turn.

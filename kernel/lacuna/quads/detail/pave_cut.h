@@ -24,7 +24,8 @@ double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b);
 
 /// The best line that divides a loop into two loops with even numbers of nodes, according to the weights of
 /// `PartialMesh`. A good line meets the outline at multiples of a right angle, is short relative to the part
-/// of the outline that it cuts off, and leaves parts whose opposite sides have equal numbers of edges.
+/// of the outline that it cuts off, leaves parts whose opposite sides have equal numbers of edges, and stays
+/// away from other nodes.
 /// @return  empty if every line crosses the outline, or no line makes both parts smaller than the loop.
 /// @note  At most about 96 nodes are tried, in all pairs, then the nodes near the best ones.
 std::optional<Cut> best_cut(const PartialMesh& partial, const Cycle& cycle,

@@ -19,8 +19,8 @@ namespace lacuna::quads::paving {
 /// @param symmetries  symmetries of the mesh, from `mesh_symmetries()`. They are preserved up to rounding:
 ///         the search moves one node, and moves all images of this node accordingly.
 /// @post   The mesh changes only if its value increases. The value is the mean scaled Jacobian, plus half the
-///         share of good row quads, plus half the share of sides of the requested size. No share falls from
-///         above 95 % to below.
+///         share of good row quads, plus half the share of sides of the requested size. The part of a share
+///         above 95 % counts only a quarter. No share falls from above 95 % to below.
 /// @pre    `find_fault()` finds no fault, and the symmetries map nodes to the positions of their images.
 /// @note   Deterministic. O(quads), plus about 10^4 evaluations of a quad for each row quad that is not good.
 void square_rows(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries = {});

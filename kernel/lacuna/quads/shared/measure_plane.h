@@ -2,11 +2,9 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/types.h>
 #include <lacuna/quads/region.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <numbers>
 #include <span>
@@ -57,10 +55,6 @@ private:
         return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
     }
 };
-
-/// Number of quads that suits an angle: the number of right angles nearest to it, at least one. It is one at
-/// an end of the boundary, two on a side, three at a corner, four at a reversal.
-inline int quads_in(double angle) { return std::max(1, static_cast<int>(angle / kRightAngle + 0.5)); }
 
 /// The angle inside the region at each of its boundary nodes, one loop after the other [radian].
 std::vector<double> boundary_angles(const PlanarRegion& region);

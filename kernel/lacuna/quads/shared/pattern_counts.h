@@ -27,9 +27,6 @@ inline constexpr double kManyQuads = 20'000;
 /// made for several solutions. The axes of a part are divided by the requested size first, because the graded
 /// size, which grows away from short given sides, would leave too few grid lines in the part.
 inline constexpr double kFewQuads = 200;
-/// Depth of the rows along a round side, as a share of its radius. The square inside a disc is then about
-/// half as wide as the disc.
-inline constexpr double kRowsOfRadius = 1.0 / 3;
 /// Number of candidates that are tried, in the order of their estimated cost.
 inline constexpr std::size_t kCandidates = 4;
 /// A segment with fewer wanted sides than this need not get an even number of sides, because rounding would
@@ -59,20 +56,23 @@ inline constexpr double kFewestEven = 8;
 /// wanted numbers are rounded.
 ///
 /// For a straight grid the sum has three more terms:
-/// - (√quads − √requested)², because rows along round turns add quads. A round (soft) turn is one where the
-///   grid turns behind some rows of quads, see `PatternLoop`;
+/// - a quarter of (quads − requested)² / requested, because rows along round turns add quads. A round (soft)
+///   turn is one where the grid turns behind some rows of quads, see `PatternLoop`;
 /// - for each round turn, ln²(rows / fitting rows), times half the number of fitting rows if there are more
 ///   than two. The fitting rows fill about a third of the radius of the widest turn (`fitting_rows()`);
 /// - a penalty for unequal numbers of mirrored segments if the part itself is symmetric.
 ///
 /// The sum is compared for several solutions: rounding starts from several multiples of the wanted numbers,
-/// and several numbers of rows are tried.
+/// and several numbers of rows are tried. If the straight grid of a region without axes then has too many or
+/// too few quads, further multiples are tried.
 ///
 /// Below 200 quads, there are these differences:
 /// - The axes are divided by the requested size, not by a size that grows away from short sides.
 /// - Parts between other pairs of axes are tried as well.
 /// - The grid of a part must have grid lines between its holes. If there is no such grid, segments may
 ///   deviate from their wanted numbers as much as on a ring.
+/// - For a straight grid of a region without axes, a grid is made for each of the four cheapest solutions,
+///   including those with fewer round turns. The numbers of the grid with the best measured quality are used.
 ///
 /// A region of three or five sides that no grid fills gets numbers for three or five grids around one node.
 /// The wanted numbers are scaled, because such grids would otherwise have too many or too few quads.
@@ -84,7 +84,8 @@ inline constexpr double kFewestEven = 8;
 /// Method: the equations of a loop have coefficients of 1 and -1, and a number occurs in two equations only
 /// if its segment turns. Therefore it is enough to round the wanted numbers and to change numbers by one, the
 /// cheapest change first, until all equations hold. Afterwards a hole gets one row or column more or less if
-/// its centre then lies where the outer loop's grid coordinates require it, which preserves symmetry.
+/// its centre then lies where the outer loop's grid coordinates require it, which preserves symmetry. Below
+/// 200 quads, the numbers without this change are tried too.
 /// @param region   the region with its current nodes, whose number does not matter.
 /// @param segment  for each boundary node, the number of the segment that contains the side from this node to
 ///         the next.

@@ -55,12 +55,14 @@ struct Paved {
 /// mesh has a triangle, which is cut in three. A coarse region of 8,000 quads or more is coarsened again. Up
 /// to eight of its sides may then be divided; each divided side gives one triangle.
 ///
-/// Few quads: below 4000 quads, the paver first makes four meshes: three without rows, with weights chosen
-/// for few quads, and one with rows. It cleans and smooths the two with the fewest irregular nodes. It cleans
-/// and smooths the other two only if the worst quad of the first two has a scaled Jacobian below 0.75. The
-/// mesh with the best measured quality is kept. If it is poor, meshes with other rows and with triangles are
-/// tried. Edge lengths are judged by the size that the given boundary sides permit, not by the requested size
-/// alone.
+/// Few quads: up to 4000 quads, the paver makes several meshes, with and without rows and with several
+/// weightings of the cuts, and keeps the one with the best measured quality. Below about 1500 quads it first
+/// makes four: three without rows, with weights chosen for few quads, and one with rows. It cleans and
+/// smooths the two with the fewest irregular nodes. It cleans and smooths the other two only if the worst
+/// quad of the first two has a scaled Jacobian below 0.75. It tries other weights only if all four are poor.
+/// The search ends when a mesh is good and has nearly the minimum number of irregular nodes that topology
+/// allows (`least_irregular()`). Edge lengths are judged by the size that the given boundary sides permit,
+/// not by the requested size alone.
 ///
 /// Boundary nodes are kept, in order, bit for bit. Quads are counter-clockwise and convex. Flat quads remain
 /// only where boundary sides are long compared with the gap between them; the log reports these quads.

@@ -12,7 +12,7 @@ namespace lacuna::quads {
 /// squares (submapping).
 ///
 /// 1. Each boundary node is classified by its angle as an end, a side, a corner or a reversal, see
-///    `quads_in()`.
+///    `grid_quads()`.
 /// 2. Walking along a loop gives every node integer grid coordinates. In these coordinates, the outer loop
 ///    must close and turn once counter-clockwise, and a hole must close and turn once clockwise.
 /// 3. A hole is placed in the grid: the grid coordinates of the outline are interpolated at the hole's nodes
@@ -28,5 +28,10 @@ namespace lacuna::quads {
 /// @pre   loops as `pave()` requires them.
 /// @note  Deterministic. O(quads), and O(outer nodes × hole nodes) for holes.
 std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& context = {});
+
+/// Number of quads of a grid that suit a boundary node with the given inner angle: 1 at an end (about 90°), 2
+/// on a side (180°), 3 at a corner (270°), 4 at a reversal (360°). 0 if the angle is too far from all these.
+/// @param angle  from 0 to 2π [radians].
+int grid_quads(double angle);
 
 } // namespace lacuna::quads
