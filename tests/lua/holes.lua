@@ -222,7 +222,7 @@ grid("w3", { 3, 3, 0 }, { -1, 0, 0 }, { 0, 0, 1 }, 3, 3)
 grid("w4", { 0, 3, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, 3, %d)
 local void = model:open_volume {}]]
 tells("closure.hole_closed", box:format("1", 3))
-tells("closure.walls_filled closure.wall_assumed", box:format("nil", 1))
+tells("closure.walls_filled", box:format("nil", 1))
 tells(nil, box:format("nil", 3))
 
 -- A barrel with two opposite walls, which bulge by a share of its radius: too little to lead the void edges.

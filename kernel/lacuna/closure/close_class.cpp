@@ -206,17 +206,15 @@ std::optional<Vec3> up_a_wall(const OpenVolume& volume)
                                     "{0:.3g} }} joins them",
                                     needed(sewing_tolerance(model, gap))));
     }
-    Message refusal("closure.wall_missing",
-                    "{} of the source has no wall, and the tops of the given walls do not determine the "
-                    "missing target there",
-                    entity_of(model, edge));
-    if (const std::optional<Vec3> way = up_a_wall(volume))
-        throw NotClosed(std::move(refusal).remedy(
-            "name the wall or the target, or let open_volume{{ …, along = {{ vector = {{{:.9g}, {:.9g}, "
-            "{:.9g}}} }} }} make both",
-            way->x(), way->y(), way->z()));
-    throw NotClosed(std::move(refusal).remedy("name the wall or the target, or let open_volume{{ …, along = "
-                                              "{{ vector = {{x, y, z}} }} }} make both"));
+    const std::optional<Vec3> way = up_a_wall(volume);
+    throw NotClosed(
+        Message("closure.wall_missing",
+                "{} of the source has no wall, and the tops of the given walls do not determine the "
+                "missing target there",
+                entity_of(model, edge))
+            .remedy("name the wall or the target, or let open_volume{{ …, along = {{ vector = {{{}}} }} }} "
+                    "make both",
+                    way ? formatted("{:.9g}, {:.9g}, {:.9g}", way->x(), way->y(), way->z()) : "x, y, z"));
 }
 
 /// Close class IV by eq. (3) and (4) of the paper: the free loops of source and walls bound the target.

@@ -575,8 +575,9 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                 note_one_wall(model, face, closure);
             else if (has_only_quadric(model, face))
                 note_one_wall(model, face, closure, Assumed::rim);
-            else if (rests_on_void_edges(model, face) ||
-                     (continues_face_beside(model, face) && !face_round_hole(model, face)))
+            else if (closure.assumptions.empty() && // one note is enough for a closing
+                     (rests_on_void_edges(model, face) ||
+                      (continues_face_beside(model, face) && !face_round_hole(model, face))))
                 note_one_wall(model, face, closure, Assumed::rim,
                               std::pow(face_area(model, face), 1.5) / enclosed);
         }

@@ -176,7 +176,9 @@ bool closes_hole(const Model& model, const Closure& closure)
     });
 }
 
-/// Replace the readings by that of `read_filled()` if this one is sure:
+/// Replace the readings by that of `read_filled()` if this one is sure. It is only made if the readings
+/// differ, if the first one assumes the shape of a face, or if it closes a hole in its plane although the
+/// faces are of several parts, between which a round wall may be missing.
 /// - If the readings differ in volume, or in whether holes go through, it must close no hole.
 /// - If the readings differ in volume, or the user is asked about holes (`leave_holes_open()`), it may assume
 ///   nothing but round walls between rims; otherwise also that missing faces are flat and missing walls

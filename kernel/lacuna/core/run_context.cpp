@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/run_context.h>
 
-#include <lacuna/core/shared/parallel.h>
-
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
 #include <thread>

@@ -317,9 +317,11 @@ private:
             move(grid_[l], 0, 0, period_);
         }
         const Spokes spokes(points_, grid_[0], grid_[pattern_.about], period_);
-        const int by_size = spokes.rows(size_);
-        if (pattern_.across > 0 && by_size >= pattern_.across) return false;
-        const int rows = std::max(by_size, pattern_.across);
+        int rows = spokes.rows(size_);
+        if (pattern_.across > 0) {
+            if (rows >= pattern_.across) return false;
+            rows = pattern_.across;
+        }
         move(grid_[pattern_.about], spokes.shift(), rows, period_);
         for (std::size_t l = 1; l < loops_.size(); ++l) {
             if (l != pattern_.about && !place_beside(l, spokes, rows)) return false;

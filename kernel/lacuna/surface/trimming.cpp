@@ -22,6 +22,7 @@ namespace {
 /// Number of Newton iterations on a curve. The iterations start at most a few percent of a side away from the
 /// solution and converge quadratically. Heuristic.
 constexpr int kRounds = 3;
+
 /// Maximum height of a convex curve over its chord, as a share of the chord's length.
 /// @param first, second  angles between curve and chord at the two ends [radian].
 double height_over_chord(double first, double second)

@@ -139,6 +139,7 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     flat.nodes = std::move(morphed.nodes);
     flat.face.assign(flat.quads.size(), static_cast<Index>(faces.front().index()));
     source.quads = std::move(flat);
+    source.rows.clear();
     source.notes = {formatted("{}: paved between the outlines of both ends, {} quads",
                               entity_of(volume.model, faces.front()), source.quads.quads.size())};
     return source;

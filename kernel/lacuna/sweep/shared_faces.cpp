@@ -30,6 +30,7 @@ namespace {
 /// leave gaps next to the rim of a curved face. If two faces touch along a rim and curve away from each
 /// other, less than this share of either face is closer to the other face than the error of the facets.
 constexpr double kMostly = 0.5;
+
 /// A face prepared for comparison.
 struct Side {
     const OpenVolume* volume = nullptr;

@@ -243,7 +243,8 @@ std::string volume_in_words(const Swept& swept, const OpenVolume& volume, const 
         length += (swept.mesh.nodes[index(side[1])] - swept.mesh.nodes[index(side[0])]).norm();
     const bool keeps = (options.quads == Quads::automatic || options.quads == Quads::keep) &&
                        std::ranges::any_of(volume.faces(Role::source), [&](FaceId face) {
-                           return !volume.model[face].given_quads.empty();
+                           const topology::Face& own = volume.model[face];
+                           return own.keeps_nodes && topology::has_cells_to_keep(own, options.wedges);
                        });
     return formatted(
         "the mesh has {:.2g} % {} volume than the sealed shape; {}size = {:.2g} and layers = {} should keep "

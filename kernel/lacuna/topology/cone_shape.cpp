@@ -40,7 +40,8 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     const auto [normals, areas] = facet_normals(model, id);
     if (normals.size() < 4) return {};
     const geometry::Spread spread = geometry::spread_of(normals, areas);
-    if (spread.square[0] > kOffShape || spread.square[1] < 2 * kFlatShare) return {};
+    // Normals that are nearly parallel define no axis.
+    if (spread.square[0] > kOffShape || spread.square[1] < kParallel * kParallel) return {};
     ConeShape cone;
     cone.axis = spread.axis.col(0);
     const double lean = std::abs(spread.centre.dot(cone.axis));

@@ -232,10 +232,11 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
 {
     const std::vector<FaceId> outer = outer_faces(given);
     Model model = only(given, outer);
+    const std::set<FaceId> asked(faces.begin(), faces.end());
     std::vector<FaceId> named; // the faces, in `model`
     for (std::size_t f = 0; f < outer.size(); ++f)
-        if (std::ranges::count(faces, outer[f]) > 0) named.emplace_back(f);
-    const bool open = named.size() < faces.size() || std::ranges::any_of(named, [&](FaceId face) {
+        if (asked.contains(outer[f])) named.emplace_back(f);
+    const bool open = named.size() < asked.size() || std::ranges::any_of(named, [&](FaceId face) {
                           const std::vector<Loop>& loops = model[face].loops; // no loops: closed by itself
                           return !loops.empty() &&
                                  model.uses_of_edge(loops.front().uses.front().edge).size() != 2;

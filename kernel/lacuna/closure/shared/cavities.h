@@ -28,8 +28,8 @@ struct Cavity {
 /// @note  One call of find_readings() per candidate.
 std::vector<Cavity> cavities(const topology::Model& model, const RunContext& context = {});
 
-/// The largest cavities, largest first, none a part of another. Their faces include those of
-/// other bodies of the model that lie in them, such as boards in a tray.
+/// The largest cavities, largest first, none a part of another. Their faces include those of other bodies of
+/// the model that lie in them, such as boards in a tray.
 /// @throw Cancelled
 /// @note  One call of find_readings() per candidate, until `most` cavities are found.
 std::vector<Cavity> largest_cavities(const topology::Model& model, std::size_t most,
