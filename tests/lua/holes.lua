@@ -479,4 +479,26 @@ BooleanDifference(7) = { Volume{5}; Delete; }{ Volume{6}; Delete; };
   end
 end
 
+-- The wall of a bore is missing. Where the space lies inside it, as in an island, flat faces may be meant: that it
+-- goes on between them is said. Round it, as in a solid, it is not.
+local island = [[SetFactory("OpenCASCADE");
+Box(1) = {-10,-10,-10, 20,20,20}; Cylinder(2) = {-5,0,0, 10,0,0, 4}; Cylinder(3) = {-5,0,0, 10,0,0, %g};
+BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
+]]
+local around = '{ -10, 0, 0 }, { 10, 0, 0 }, { 0, -10, 0 }, { 0, 10, 0 }, { 0, 0, -10 }, { 0, 0, 10 }, '
+for _, case in ipairs { { 3, around, true }, { 2, around, false }, { 3, "", false } } do
+  local radius, box, wanted = table.unpack(case)
+  check.write(folder .. "/island.geo", island:format(radius))
+  check.write(folder .. "/recipe.lua", ([[
+local model = require("lacuna").load %q
+local faces = {}
+for i, place in ipairs { %s{ 0, 4, 0 }, { -5, 0, 3.5 }, { 5, 0, 3.5 } } do faces[i] = { near = place } end
+print(#faces, model:open_volume({ faces = faces }):close().watertight)
+]]):format(folder .. "/island.geo", box))
+  local exit, out, err = check.run(params.lacuna, folder, { folder .. "/recipe.lua" })
+  check.equal(exit, 0, err)
+  check.that(out:find "true", out)
+  check.equal(err:find("closure.round_wall", 1, true) ~= nil, wanted, err)
+end
+
 check.done()

@@ -14,6 +14,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -217,6 +218,7 @@ std::optional<FlatFilling> fill_free_loops(const Model& model, const std::vector
 {
     auto filled = fill_loops(model, faces, missing, context);
     if (!filled || !prove(*filled, context)) return std::nullopt;
+    orient_skin(filled->volume.model, context);
     note_closed_holes(model, faces, filled->volume, RolesBy::finding, filled->closure);
     note_open_rims(filled->volume, RolesBy::finding, filled->closure);
     return filled;

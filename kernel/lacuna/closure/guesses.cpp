@@ -447,6 +447,46 @@ void note_unshown_planes(const Model& model, Closure& closure)
            1, Assumed::rim);
 }
 
+/// Whether the given faces beside a void face are flat and the void face closes holes of them.
+bool ends_in_holes(const Model& model, FaceId wall)
+{
+    return std::ranges::all_of(uses_of(model[wall]), [&](const EdgeUse& use) {
+        return model[use.edge].origin != Origin::given ||
+               std::ranges::all_of(model.uses_of_edge(use.edge), [&](const FaceUse& by) {
+                   if (by.face == wall) return true;
+                   const Face& given = model[by.face];
+                   return plane_of(model, by.face) && given.loops.size() > 1 &&
+                          std::ranges::none_of(given.loops.front().uses,
+                                               [&](const EdgeUse& u) { return u.edge == use.edge; });
+               });
+    });
+}
+
+/// Note round void walls between holes of flat faces if the volume lies inside these walls: flat faces in the
+/// holes would leave it out. Outside a wall, a flat face would merely continue the face that it is in.
+void note_rods(const Model& model, double enclosed, Closure& closure)
+{
+    std::vector<FaceId> walls;
+    double inside = 0;
+    for (const FaceId face : closure.void_faces) {
+        const auto shape = round_shape(model, face);
+        if (!shape || shape->is_sphere() || !ends_in_holes(model, face)) continue;
+        walls.push_back(face);
+        for (const Triangle& t : model[face].triangles) {
+            const Vec3 out = model.at(t[0]) - shape->centre;
+            inside += (out - out.dot(*shape->axis) * *shape->axis).dot(facet_area_vector(model, t)) / 2;
+        }
+    }
+    if (!(inside > 0)) return;
+    assume(closure,
+           Message("closure.round_wall",
+                   "the volume goes on inside the round wall {} between the holes of {}; flat faces in these "
+                   "holes would take {:.3g} from it",
+                   entities_of(model, walls), given_beside(model, walls), inside)
+               .remedy("if flat faces are missing, give them"),
+           inside / enclosed, Assumed::round_wall);
+}
+
 /// Largest distance of the centroids of the other void faces from the mean plane of `face` [model length].
 double reach_of_others(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
@@ -566,6 +606,7 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
     if (by == RolesBy::finding) {
         note_flat_in_circles(model, enclosed, closure);
         note_unshown_planes(model, closure);
+        note_rods(model, enclosed, closure);
     }
     for (const FaceId face : closure.void_faces) {
         // If the user named the roles, exactly one wall is missing at such a rim. Otherwise several faces may

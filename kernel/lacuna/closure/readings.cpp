@@ -14,7 +14,6 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/segment.h>
 #include <lacuna/topology/shared/face_parts.h>
-#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -101,12 +100,11 @@ std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vect
 
 /// A sealed void as a reading without ends. Empty if it encloses no volume, for example because the rim of a
 /// flat face is filled with a second flat face.
-std::optional<Reading> without_ends(FlatFilling filled, const RunContext& context)
+std::optional<Reading> without_ends(FlatFilling filled)
 {
     Reading reading;
     reading.volume = std::move(filled.volume);
     reading.closure = std::move(filled.closure);
-    orient_skin(reading.volume.model, context);
     reading.enclosed = enclosed_volume(reading.volume);
     double area = 0;
     for (const FaceId face : all_faces(reading.volume.model)) area += face_area(reading.volume.model, face);
@@ -126,7 +124,7 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     if (!filled || filled->channel || filled->closure.void_faces.empty()) return std::nullopt;
     const Model skin = filled->volume.model;
     const std::vector<Reading> whole = find_readings(skin, all_faces(skin), context);
-    auto reading = without_ends(std::move(*filled), context);
+    auto reading = without_ends(std::move(*filled));
     if (!reading) return std::nullopt;
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
     if (!reading->guess)
@@ -235,7 +233,7 @@ Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const Ru
     Message why = why_no_roles(model, faces, context);
     auto filled = free_edges(open).empty() ? fill_free_loops(model, faces, Missing::flat, context)
                                            : std::nullopt;
-    auto reading = filled ? without_ends(std::move(*filled), context) : std::nullopt;
+    auto reading = filled ? without_ends(std::move(*filled)) : std::nullopt;
     if (!reading) throw InvalidInput(std::move(why));
     reading->no_roles = std::move(why);
     return std::move(*reading);

@@ -3,11 +3,14 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace lacuna::sweep {
 
@@ -110,6 +113,14 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
     for (std::size_t m = 0; m < count; ++m)
         for (const std::size_t other : before[m]) near[other].insert(m);
     const std::vector<bool> early = split_at_both_ends(members, before);
+    // Stacks: members that are joined at their ends. The first member of a stack hands its quads on to the
+    // others. Two members that are meshed apart would meet in different quads.
+    geometry::UnionFind joined(count);
+    for (const SharedFace& face : shared)
+        if (!is_wall(members[face.a], face.face_a) && !is_wall(members[face.b], face.face_b))
+            joined.unite_least(face.a, face.b);
+    std::vector<std::vector<std::size_t>> stack(count); // by root; emptied when its first member is placed
+    for (std::size_t m = 0; m < count; ++m) stack[joined.find(m)].push_back(m);
     const auto has = [&](std::size_t m, bool wall, bool other_wall, bool there) {
         return std::ranges::any_of(shared_by[m], [&](const SharedFace* face) {
             const bool is_a = face->a == m;
@@ -140,7 +151,7 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
         if (!members[m].options.boundary_layers.empty()) return {4, m, m};
         if (!all_placed(below[m])) return {9, m, m};
         if (has(m, false, true, false)) return {8, m, m};
-        if (early[m] && !has(m, false, false, true) && !has(m, false, true, true)) return {5, m, m};
+        if (early[m] && !stack[joined.find(m)].empty() && !has(m, false, true, true)) return {5, m, m};
         return {has(m, false, false, true) ? 6 : 7, m, m};
     };
     std::set<Step> to_come; // of the members that are not placed
@@ -152,7 +163,9 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
         to_come.erase(to_come.begin());
         placed[next] = 1;
         order.push_back(next);
-        for (const std::size_t other : near[next]) {
+        std::vector<std::size_t> changed(near[next].begin(), near[next].end());
+        std::ranges::copy(std::exchange(stack[joined.find(next)], {}), std::back_inserter(changed));
+        for (const std::size_t other : changed) {
             if (placed[other] != 0) continue;
             to_come.erase(steps[other]);
             to_come.insert(steps[other] = step_of(other));
