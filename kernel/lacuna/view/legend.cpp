@@ -12,8 +12,7 @@ namespace lacuna::view {
 namespace {
 
 // Sizes that look balanced in a picture of 1200 pixels [pixels].
-constexpr double kEdge = 18, kTitle = 13, kLetters = 10, kRow = 24;
-constexpr double kBarWide = 180, kBarHigh = 12, kBox = 14, kGap = 7, kApart = 22;
+constexpr double kEdge = 18, kLetters = 11, kGap = 7, kBarWide = 180;
 constexpr int kRows = 3; // most rows of keys
 constexpr Colour kInk{20, 28, 38};
 
@@ -26,7 +25,7 @@ void write(std::vector<Mark>& marks, const std::string& text, const Vec2& at, do
         marks.push_back({at + height * from, at + height * to, kInk, height / 8, false});
 }
 
-double width_of(const Key& key) { return kBox + kGap + width_of(key.text, kLetters); }
+double width_of(const Key& key) { return kLetters + kGap + width_of(key.text, kLetters); }
 
 /// Distribute keys to rows. If there is no room for all, the last key counts the others.
 std::vector<std::vector<Key>> rows_of(const std::vector<Key>& keys, double wide)
@@ -44,7 +43,7 @@ std::vector<std::vector<Key>> rows_of(const std::vector<Key>& keys, double wide)
             used = 0;
         }
         rows.back().push_back(keys[k]);
-        used += width_of(keys[k]) + kApart;
+        used += width_of(keys[k]) + kEdge;
     }
     return rows;
 }
@@ -55,15 +54,15 @@ PlacedLegend place_legend(const Legend& legend, int width, int height)
 {
     PlacedLegend placed;
     if (!legend.title.empty()) {
-        write(placed.marks, legend.title, {kEdge, kEdge}, kTitle);
-        placed.above = kEdge + kTitle + kGap;
+        write(placed.marks, legend.title, {kEdge, kEdge}, kLetters);
+        placed.above = kEdge + kLetters + kGap;
     }
     double bottom = height - kEdge;
     if (!legend.ramp.empty()) {
-        const double top = bottom - kLetters - kGap - kBarHigh, right = kEdge + kBarWide;
+        const double top = bottom - kLetters - kGap - kLetters, right = kEdge + kBarWide;
         for (int i = 0; i < kBarWide; ++i)
             placed.marks.push_back({{kEdge + i, top},
-                                    {kEdge + i + 1, top + kBarHigh},
+                                    {kEdge + i + 1, top + kLetters},
                                     on_ramp(legend.ramp, (i + 0.5) / kBarWide)});
         const auto number = [](double value) {
             return with_decimals(value, value == std::floor(value) ? 0 : 1);
@@ -72,15 +71,15 @@ PlacedLegend place_legend(const Legend& legend, int width, int height)
         const double text = bottom - kLetters;
         write(placed.marks, low, {kEdge, text}, kLetters);
         write(placed.marks, high, {right - width_of(high, kLetters), text}, kLetters);
-        write(placed.marks, legend.quantity, {right + kGap * 2, top + (kBarHigh - kLetters) / 2}, kLetters);
+        write(placed.marks, legend.quantity, {right + kGap * 2, top}, kLetters);
         bottom = top - kGap * 2;
     }
     const auto rows = rows_of(legend.keys, width - 2 * kEdge);
     for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
         double left = kEdge;
-        const double top = bottom - kBox;
+        const double top = bottom - kLetters;
         for (const Key& key : *row) {
-            const Vec2 low(left, top), high(left + kBox, top + kBox), half(0, kBox / 2);
+            const Vec2 low(left, top), high(left + kLetters, top + kLetters), half(0, kLetters / 2);
             if (key.line) {
                 placed.marks.push_back({low + half, high - half, key.colour, 4, false});
             } else {
@@ -88,10 +87,10 @@ PlacedLegend place_legend(const Legend& legend, int width, int height)
                 const Vec2 rim(1, 1);
                 placed.marks.push_back({low + rim, high - rim, key.colour, 0, key.hatched});
             }
-            write(placed.marks, key.text, {left + kBox + kGap, top + (kBox - kLetters) / 2}, kLetters);
-            left += width_of(key) + kApart;
+            write(placed.marks, key.text, {left + kLetters + kGap, top}, kLetters);
+            left += width_of(key) + kEdge;
         }
-        bottom -= kRow;
+        bottom -= kEdge;
     }
     placed.below = height - kEdge - bottom > 0 ? height - bottom : 0;
     return placed;

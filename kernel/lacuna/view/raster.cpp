@@ -15,13 +15,10 @@ namespace lacuna::view {
 
 namespace {
 
-constexpr int kSamples = 3;         // samples per pixel, in each direction
-constexpr double kMargin = 0.05;    // free margin, relative to the picture
-constexpr double kLeastShare = 0.5; // least part of the height left for the object
-constexpr double kSideWidth = 1.1;  // width of lines between cells [pixels]
-constexpr double kSideDark = 0.75;  // darkness of the lines
-constexpr double kFront = -2;       // depth in front of everything else
-constexpr Colour kLineColour{20, 28, 38};
+constexpr int kSamples = 3;      // samples per pixel, in each direction
+constexpr double kMargin = 0.05; // free margin, relative to the picture
+constexpr double kFront = -2;    // depth in front of everything else
+constexpr Colour kLineColour{60, 66, 74};
 
 /// A parallel projection of the scene to sample coordinates; depth increases away from the viewer.
 class Projection {
@@ -37,10 +34,10 @@ public:
         Eigen::AlignedBox3d box;
         for (const DrawnSide& side : scene.sides)
             for (std::size_t k = 0; k < side.count; ++k) box.extend(turn_ * side.corner[k]);
-        // If title and legend leave too little height, they are drawn over the object, which gets the full
-        // height.
+        // If title and legend leave less height than they take, they are drawn over the object, which gets
+        // the full height.
         const double words = legend.above + legend.below, room = options.height - words;
-        const bool beside = room > options.height * kLeastShare;
+        const bool beside = room > words;
         const double width = options.width * kSamples;
         const double height = (beside ? room : options.height) * kSamples;
         const Vec3 size = box.sizes();
@@ -114,7 +111,7 @@ std::vector<Placed> place_sides(const Scene& scene, const Projection& project)
             girth += (own.corner[(k + 1) % side.count] - own.corner[k]).head<2>().norm();
         // On quads a few pixels wide, lines are fainter; on quads below two pixels, there are none.
         const double width = girth / static_cast<double>(side.count) / kSamples;
-        own.line = kSideDark * std::clamp((width - 2) / 4, 0.0, 1.0);
+        own.line = std::clamp((width - 2) / 4, 0.0, 1.0);
     }
     return placed;
 }
@@ -229,7 +226,7 @@ private:
         for (std::size_t k = 0; k < side.count; ++k) {
             if ((side.hidden >> k & 1U) != 0) continue;
             const Vec2 from = side.corner[k].head<2>(), to = side.corner[(k + 1) % side.count].head<2>();
-            if (geometry::distance_to_segment(at, from, to) < kSideWidth * kSamples / 2)
+            if (geometry::distance_to_segment(at, from, to) < kSamples / 2.0) // a line is a pixel wide
                 return mixed(colour, kLineColour, side.line);
         }
         return colour;

@@ -9,8 +9,7 @@ namespace lacuna::view {
 namespace {
 
 constexpr double kCapital = 6; // height of a capital in units of the table
-constexpr double kGap = 1.7;   // space between letters, in units of the table
-constexpr double kSpace = 1.4; // width of a space, in units of the table
+constexpr double kGap = 1.7;   // space between letters, and width of a blank, in units of the table
 
 /// Letters from ' ' to '~'. A stroke is a sequence of digit pairs, x to the right and y down: capitals extend
 /// from 0 to 6, small letters from 2 to 6, descenders to 8.
@@ -124,7 +123,7 @@ StrokedText stroked(std::string_view text)
         if (byte >= 0x80 && byte < 0xc0) continue; // a continuation byte of UTF-8
         const std::string_view letter = byte >= ' ' && byte <= '~' ? kLetters[byte - std::size_t{' '}]
                                                                    : kUnknown;
-        double width = letter.empty() ? kSpace : 0;
+        double width = letter.empty() ? kGap : 0;
         const auto at = [&](std::size_t i) -> Vec2 {
             width = std::max(width, double(letter[i] - '0'));
             return Vec2(left + (letter[i] - '0'), letter[i + 1] - '0') / kCapital;
