@@ -321,7 +321,8 @@ std::vector<double> share_out(const FineCurve& fine, double refinement, std::siz
 {
     const double total = std::accumulate(fine.weight.begin(), fine.weight.end(), 0.0);
     // Subtract a slack before rounding up, so that rounding errors do not add a segment to a whole circle.
-    const auto wanted = static_cast<std::size_t>(std::max(0.0, std::ceil(total * refinement - kCountSlack)));
+    const auto wanted = static_cast<std::size_t>(
+        std::max(0.0, std::ceil(total * refinement - kFileAccuracy)));
     const std::size_t sides = std::max(least, wanted);
     if (!(total > 0)) return evenly(fine.params.front(), fine.params.back(), sides);
     std::vector<double> params{fine.params.front()};

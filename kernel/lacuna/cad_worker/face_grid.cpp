@@ -100,7 +100,7 @@ GridAxis::GridAxis(std::vector<double> knots, const std::vector<double>& density
     // A minimum density keeps the map strictly increasing.
     const double least = total > 0 ? 1e-3 * total / static_cast<double>(density.size()) : 1;
     for (const double d : density) grid_.push_back(grid_.back() + std::max(d, least));
-    cells_ = std::max(least_cells, static_cast<int>(std::ceil(total - kCountSlack)));
+    cells_ = std::max(least_cells, static_cast<int>(std::ceil(total - kFileAccuracy)));
     const double scale = cells_ / grid_.back();
     for (double& g : grid_) g *= scale;
     grid_.back() = cells_;

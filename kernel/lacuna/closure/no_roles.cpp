@@ -76,7 +76,7 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
 bool is_cone_to_its_tip(const Model& model, FaceId face)
 {
     const auto cone = cone_shape(model, face);
-    return cone && cone->least_radius <= kOffShape * cone->largest_radius;
+    return cone && cone->least_radius <= kAlikeSizes * cone->largest_radius;
 }
 
 /// An edge between two cylinders with non-parallel axes, each of half a turn or more; invalid if there is

@@ -136,7 +136,7 @@ double off_round_cone(const Eigen::Matrix4d& form)
     double unlike = 1;
     for (const Eigen::Index i : {0, 1}) {
         const double more = std::max(std::abs(bends(i)), std::abs(bends(i + 1)));
-        if (more > kOffShape * bends.cwiseAbs().maxCoeff())
+        if (more > kAlikeSizes * bends.cwiseAbs().maxCoeff())
             unlike = std::min(unlike, (bends(i + 1) - bends(i)) / more);
     }
     return unlike + singular_values(form)(3);
@@ -150,7 +150,7 @@ double off_cylinder(const Eigen::Matrix4d& form)
     return std::sqrt(std::max(squares(0), 0.0) / squares(2));
 }
 
-/// The forms cos t · a + sin t · b at which `off` has a minimum of at most `kOffShape`.
+/// The forms cos t · a + sin t · b at which `off` has a minimum of at most `kAlikeSizes`.
 std::vector<Eigen::Matrix4d> special_forms(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b,
                                            const std::function<double(const Eigen::Matrix4d&)>& off)
 {
@@ -175,7 +175,7 @@ std::vector<Eigen::Matrix4d> special_forms(const Eigen::Matrix4d& a, const Eigen
                 break;
             }
         }
-        if (least <= kOffShape) found.push_back(at(t));
+        if (least <= kAlikeSizes) found.push_back(at(t));
     }
     return found;
 }
@@ -284,11 +284,11 @@ std::optional<double> QuadricSheet::height(const Vec2& place) const
     return off * quadric.unit;
 }
 
-bool is_bent(const Quadric& quadric) { return off_plane_pair(quadric.form) > kOffShape; }
+bool is_bent(const Quadric& quadric) { return off_plane_pair(quadric.form) > kAlikeSizes; }
 
 bool is_round(const Quadric& quadric)
 {
-    return is_bent(quadric) && std::min(off_ball(quadric.form), off_round_cone(quadric.form)) <= kOffShape;
+    return is_bent(quadric) && std::min(off_ball(quadric.form), off_round_cone(quadric.form)) <= kAlikeSizes;
 }
 
 RimShapes shapes_of_rim(const Model& model, const std::vector<Loop>& loops, const geometry::Plane& plane)

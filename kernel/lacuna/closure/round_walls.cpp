@@ -86,7 +86,7 @@ double distance_to_axis(const geometry::Plane& base, const Vec3& place)
 bool is_round(const geometry::Plane& base, double radius, const std::vector<Vec3>& places)
 {
     return std::ranges::all_of(places, [&](const Vec3& p) {
-        return std::abs(distance_to_axis(base, p) - radius) <= kOffShape * radius;
+        return std::abs(distance_to_axis(base, p) - radius) <= kAlikeSizes * radius;
     });
 }
 
@@ -162,7 +162,7 @@ bool may_join(const Model& model, const RoundRim& a, const RoundRim& b)
     const auto continues = [&](const RoundRim& rim) {
         return std::ranges::any_of(rim.beside, [&](FaceId face) { return is_of_wall(model, rim, face); });
     };
-    return std::abs(a.radius - b.radius) <= kOffShape * radius && !continues(a) && !continues(b);
+    return std::abs(a.radius - b.radius) <= kAlikeSizes * radius && !continues(a) && !continues(b);
 }
 
 /// Whether a loop is the rim of a hole in the round wall between two rims: it lies between the lowest and the
@@ -222,7 +222,7 @@ std::vector<std::pair<std::size_t, std::size_t>> aligned(const Model& model, con
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < a.size(); ++i)
         for (std::size_t j = 0; j < b.size(); ++j)
-            if (std::abs(turn_between(angle(a[i]), angle(b[j]))) <= kOffShape) pairs.emplace_back(i, j);
+            if (std::abs(turn_between(angle(a[i]), angle(b[j]))) <= kAlikeSizes) pairs.emplace_back(i, j);
     return pairs;
 }
 
@@ -316,7 +316,7 @@ std::optional<UnrolledWall> unroll_wall(const Model& model, const RoundRim& from
     });
     Chain top = chain_from(model, b, [&](const Vec3& p) {
         const double off = std::abs(turn_between(angle(foot.places.front()), angle(p)));
-        return std::pair(std::round(off / kOffShape), height(p)); // rounded: points at one angle are alike
+        return std::pair(std::round(off / kAlikeSizes), height(p)); // rounded: points at one angle are alike
     });
     std::ranges::reverse(top.places);
     std::ranges::reverse(top.points);
@@ -495,7 +495,7 @@ std::optional<RoundWall> wall_along(const Sides& sides)
         const Eigen::VectorXd fit = geometry::least_squares(left, right);
         const double off = (left * fit - right).cwiseAbs().maxCoeff(), least = right.minCoeff();
         // Sides that are nearly planar lie near any wide cylinder.
-        if (off > kVisible * std::min(circle.radius, thickness) || !(least > kOffShape * circle.radius))
+        if (off > kVisible * std::min(circle.radius, thickness) || !(least > kAlikeSizes * circle.radius))
             continue;
         return RoundWall{circle.base, fit(0), fit(1), bent_step(sides)};
     }
@@ -547,7 +547,7 @@ bool is_ring_at_step(const Model& model, FaceId face)
     if (both.size() != 2 || plane_of(model, face) || round_shape(model, face)) return false;
     const double a = geometry::length(use_places(model, both[0].uses)),
                  b = geometry::length(use_places(model, both[1].uses));
-    return std::abs(a - b) > kOffShape * std::max(a, b) &&
+    return std::abs(a - b) > kAlikeSizes * std::max(a, b) &&
            continues_given_planes(model, both[0]) != continues_given_planes(model, both[1]);
 }
 

@@ -54,7 +54,7 @@ bool are_similar(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 /// Whether two faces are parts of equal spheres, or of cylinders with equal radii and parallel axes.
 bool are_alike(const RoundShape& a, const RoundShape& b)
 {
-    return std::abs(a.radius - b.radius) <= kOffShape * b.radius && a.is_sphere() == b.is_sphere() &&
+    return std::abs(a.radius - b.radius) <= kAlikeSizes * b.radius && a.is_sphere() == b.is_sphere() &&
            (b.is_sphere() || a.axis->cross(*b.axis).norm() <= kParallel);
 }
 

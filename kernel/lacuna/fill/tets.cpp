@@ -145,7 +145,7 @@ void require_quality(const FilledTets& tets, const sweep::SweepOptions& options)
 
 void note_slivers(FilledTets& tets, const RunContext& context)
 {
-    if (!(tets.quality.min_scaled_jacobian < kSliver)) return;
+    if (!(tets.quality.min_scaled_jacobian < kParallel)) return;
     tets.report.push_back(formatted("the least scaled Jacobian of the tetrahedra is {:.2g}; a smaller 'size' "
                                     "where faces nearly touch makes better ones",
                                     tets.quality.min_scaled_jacobian));

@@ -88,7 +88,7 @@ void divide_turns(Motion& motion, const std::vector<double>& turn)
         const double low = motion.levels[i], high = motion.levels[i + 1];
         const auto known = std::ranges::count_if(motion.rows,
                                                  [&](double row) { return row > low && row <= high; });
-        const auto wanted = static_cast<long>(std::ceil(turn[i] * kFineChords / kFullTurn - kCountSlack));
+        const auto wanted = static_cast<long>(std::ceil(turn[i] * kFineChords / kFullTurn - kFileAccuracy));
         const long count = std::max({1L, wanted, static_cast<long>(known)});
         for (long k = 1; k < count; ++k)
             rows.push_back(low + (high - low) * static_cast<double>(k) / static_cast<double>(count));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/join_sets.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/leave_out.h>
@@ -150,14 +151,10 @@ private:
             const Facet quad = facet_of({0, 1, 2, 3},
                                         [&](Index corner) { return side.corners[index(corner)]; });
             area_.push_back(quad.area.norm());
-            const Index hit = tree.closest(quad.centre, kReach * kReach * area_.back()).triangle;
+            const Index hit = tree.closest(quad.centre, kFollowsFace * kFollowsFace * area_.back()).triangle;
             on_.push_back(hit < 0 || quad.area.dot(skin_[index(hit / 2)].area) <= 0 ? -1 : hit / 2);
         }
     }
-    /// Maximum distance of a quad's centre from its face, relative to the root of the quad's area [-]. It
-    /// exceeds the sag of a 60° chord (0.13), by which two meshes of one surface may differ, and is less than
-    /// half a cell.
-    static constexpr double kReach = 0.25;
 
     const Deck& gone_;
     const NewCells& added_;

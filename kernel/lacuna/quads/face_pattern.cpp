@@ -141,7 +141,7 @@ private:
 
 /// The nearest integer. Values halfway between two integers, up to rounding errors, are rounded down. Holes
 /// that are images of each other are thus all moved in the same direction.
-int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kCountSlack)); }
+int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kFileAccuracy)); }
 
 void move(GridLoop& loop, int along, int across, int period)
 {
@@ -294,7 +294,7 @@ private:
         if (by.allFinite() && trade_column_for_row(traded)) {
             GridLoop other = positions_of(traded);
             const Vec2 now = way_to(goal, other);
-            if (off(now) < off(by) - kCountSlack) {
+            if (off(now) < off(by) - kFileAccuracy) {
                 grid_[l] = std::move(other);
                 by = now;
             }

@@ -123,7 +123,7 @@ PartSegments segments_of(const CountTask& task, const Halved& halved, const Mirr
         const auto s = index(halved.segment_at(made.starts[t]));
         const BoundarySegment& whole = task.segments[s];
         own.least = std::max(
-            1, static_cast<int>(std::ceil(whole.least * own.wanted / whole.wanted - kCountSlack)));
+            1, static_cast<int>(std::ceil(whole.least * own.wanted / whole.wanted - kFileAccuracy)));
     }
     return made;
 }

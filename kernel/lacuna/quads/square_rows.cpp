@@ -346,7 +346,7 @@ void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symm
         const double most = squarer.round();
         const PlaneQuality after = measure_plane(made, region);
         if (worth_of(after) > worth_of(quality) &&
-            after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kSameQuality &&
+            after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kAlikeSizes &&
             after.min_scaled_jacobian >= before.min_scaled_jacobian - rounding &&
             keeps(before.row_share(), after.row_share()) && keeps(before.size_share(), after.size_share())) {
             quality = after;

@@ -123,7 +123,7 @@ std::size_t symmetrise(PlanarQuads& mesh, std::size_t fixed, std::span<const Sym
     // does not reduce the quality. If smoothing stopped early, the moves may reduce the quality; the mesh is
     // then left unchanged.
     const double before = least_scaled_jacobian(mesh.points, mesh.quads);
-    if (least_scaled_jacobian(made.points, made.quads) < before - kSameQuality) return 1;
+    if (least_scaled_jacobian(made.points, made.quads) < before - kAlikeSizes) return 1;
     mesh = std::move(made);
     return symmetries.size() + 1;
 }

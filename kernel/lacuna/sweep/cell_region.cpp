@@ -108,7 +108,7 @@ std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>&
         if (scaled >= good_enough) {
             poor[c] = certified_positive(hex, corners) ? 0 : 1;
         } else {
-            poor[c] = scaled <= 0 || scaled + kSameQuality < bound_of(corners, hex, locked) ? 1 : 0;
+            poor[c] = scaled <= 0 || scaled + kAlikeSizes < bound_of(corners, hex, locked) ? 1 : 0;
         }
     });
     return poor;
@@ -207,7 +207,7 @@ CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options,
         region.cells.push_back(local);
         const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
         region.box.push_back(mean_edges(corners, kind_of(hex)));
-        region.aim.push_back(std::min(options.good_enough, bound_of(corners, hex, held) - kSameQuality));
+        region.aim.push_back(std::min(options.good_enough, bound_of(corners, hex, held) - kAlikeSizes));
     }
     region.uses = uses_of(region);
     return region;

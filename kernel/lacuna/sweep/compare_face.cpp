@@ -198,7 +198,7 @@ private:
     {
         std::size_t facet = 0;
         const auto foot = walk.over(sample.point, hint);
-        if (foot && foot->nearest && std::abs(foot->height) < kShareOfSide * sample.side) {
+        if (foot && foot->nearest && std::abs(foot->height) < kFollowsFace * sample.side) {
             facet = index(foot->facet);
             const Vec3 bulge = shape_.bulge_at(facet, foot->barycentric);
             sample.distance = std::abs(foot->height - walk.normal(foot->facet).dot(bulge));
@@ -209,7 +209,7 @@ private:
         // If the point is far from the face, as on a long quad in a bend, the nearest facet may belong to an
         // opposite part of the face. The orientation of that facet then proves nothing, so it is not checked.
         const auto found = static_cast<Index>(facet);
-        sample.turned = limit_.folds && sample.distance * sample.side < kShareOfSide * across.norm() &&
+        sample.turned = limit_.folds && sample.distance * sample.side < kFollowsFace * across.norm() &&
                         sign_ * across.dot(walk.normal(found)) < 0;
         tally.add(sample, allowed(sample));
         return found;
@@ -357,7 +357,7 @@ private:
             }
         }
         const Sample sample{point, area, side_[quad], quad, std::sqrt(best)};
-        if (sample.distance > kShareOfSide * sample.side) return std::nullopt;
+        if (sample.distance > kFollowsFace * sample.side) return std::nullopt;
         return sample;
     }
 
@@ -468,13 +468,12 @@ private:
     /// Allowed distance of a sample. It is larger around a tip.
     [[nodiscard]] double allowed(const Sample& sample) const
     {
-        constexpr double kReach = 2; // sides from the tip, see `DeviationLimit::at_tip`
+        constexpr double kReach = 2; // sides from the tip, see `DeviationLimit::share`
         const bool at_tip = limit_.length == 0 && std::ranges::any_of(tips_, [&](const Vec3& tip) {
                                 return (sample.point - tip).norm() < kReach * sample.side;
                             });
-        const double share = at_tip ? limit_.at_tip : limit_.share;
-        return (limit_.length > 0 ? limit_.length : std::max(share * sample.side, limit_.least)) +
-               shape_.slack;
+        const double by_side = at_tip ? sample.side : limit_.share * sample.side;
+        return (limit_.length > 0 ? limit_.length : std::max(by_side, limit_.least)) + shape_.slack;
     }
 
     void take(const Tally& tally)

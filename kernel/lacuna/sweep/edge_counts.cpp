@@ -36,7 +36,7 @@ bool are_alike(const std::vector<double>& a, const std::vector<double>& b)
     if (a.size() != b.size()) return false;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const double thick = a[i] - (i > 0 ? a[i - 1] : 0);
-        if (std::abs(a[i] - b[i]) > kThicknessOff * thick) return false;
+        if (std::abs(a[i] - b[i]) > kVolumeNoted * thick) return false;
     }
     return true;
 }

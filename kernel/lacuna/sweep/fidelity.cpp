@@ -19,10 +19,6 @@ using namespace topology;
 
 namespace {
 
-/// Allowed distance, as a share of a quad's side, on faces between two volumes, and within two sides of a
-/// tip, such as the apex of a cone. At most four quads meet at a tip.
-constexpr double kShareAtTip = 1;
-
 /// Lower bound of the allowed distance: this share of the model's diagonal, or this share of the face's
 /// diagonal if that is smaller. Faces of real parts have gaps and overlaps of this size, which no mesh
 /// resolves.
@@ -68,7 +64,7 @@ DeviationLimit limit_of(const Model& model, FaceId face, const FidelityOptions& 
     const double least = box.isEmpty()
                              ? 0
                              : std::min(kLeastOfModel * model.diagonal, kLeastOfFace * box.diagonal().norm());
-    return {options.max_deviation, between ? kShareAtTip : kShareOfSide, kShareAtTip, least, !made_void};
+    return {options.max_deviation, between ? 1 : kFollowsFace, least, !made_void}; // between volumes: a side
 }
 
 std::string at_place(const Vec3& p) { return place_with_digits(p, 4); }
@@ -192,8 +188,8 @@ std::optional<Message> misfit(const Fidelity& fidelity, int layers, const Fideli
     const FaceFidelity* worst = worst_misfit(fidelity);
     const bool given = options.max_deviation > 0;
     if (worst == nullptr) return std::nullopt;
-    const bool whole_side = worst->allowed > (kShareOfSide + kShareAtTip) / 2 * worst->side;
-    const bool least = worst->allowed > 2 * kShareAtTip * worst->side;
+    const bool whole_side = worst->allowed >= worst->side;
+    const bool least = worst->allowed > 2 * worst->side;
     const char* const limit = given        ? " (max_deviation)"
                               : least      ? ", the least allowed on a face of its extent"
                               : whole_side ? ", a quad's side there"

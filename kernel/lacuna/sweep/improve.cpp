@@ -173,7 +173,7 @@ private:
             // gain too.
             const double lacking = measure(region_, places_at(x), context_).lacking;
             const bool gain = best_quality_.least > before + kVisible ||
-                              lacking < least_lacking * (1 - kSameQuality);
+                              lacking < least_lacking * (1 - kAlikeSizes);
             least_lacking = std::min(least_lacking, lacking);
             without_gain = gain ? 0 : without_gain + 1;
             if (best_quality_.least > 0 && best_quality_.lacking <= 0) return;
@@ -183,7 +183,7 @@ private:
     void optimise(bool was_folded)
     {
         // If the mesh was folded, its mean quality may decrease.
-        const double floor = was_folded ? -1 : best_quality_.mean - kSameQuality;
+        const double floor = was_folded ? -1 : best_quality_.mean - kAlikeSizes;
         Eigen::VectorXd x = variables(best_);
         for (const double sharpness : kSharpness) {
             if (out_of_time() || best_quality_.lacking <= 0) return;

@@ -80,7 +80,7 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
 /// Number of layers that the bends of the columns require, with `curvature` layers for a full turn.
 int bend_layers(const Columns& columns, const SweepOptions& options)
 {
-    return static_cast<int>(std::ceil(columns.turning * options.curvature / kFullTurn - kCountSlack));
+    return static_cast<int>(std::ceil(columns.turning * options.curvature / kFullTurn - kFileAccuracy));
 }
 
 /// Heights of at least `least` layers that are about as high as the quads are wide. @throw InvalidInput
@@ -140,7 +140,7 @@ bool has_rows(const std::vector<double>& heights, const std::vector<double>& low
     const auto has = [&](const std::vector<double>& rows, const auto& at) {
         for (std::size_t j = 0; j < rows.size(); ++j) {
             const double thick = rows[j] - (j > 0 ? rows[j - 1] : 0);
-            if (std::abs(at(j + 1) * length - rows[j]) > kThicknessOff * thick) return false;
+            if (std::abs(at(j + 1) * length - rows[j]) > kVolumeNoted * thick) return false;
         }
         return true;
     };

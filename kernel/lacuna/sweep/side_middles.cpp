@@ -53,7 +53,7 @@ public:
         const auto [a, off_a] = position(curve, from);
         auto [b, off_b] = position(curve, to);
         // Nodes on a curved edge may be off the chords of the edge by the sag of these chords.
-        const double near = kShareOfSide * length;
+        const double near = kFollowsFace * length;
         if (!(off_a < near && off_b < near && whole > 0)) return std::nullopt;
         const Edge& e = model_[edge];
         const bool closed = e.points.front() == e.points.back();

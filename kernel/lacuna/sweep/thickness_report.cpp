@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/thickness_report.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/sweep/detail/keep_thickness.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/shared/names_of.h>
@@ -18,7 +19,7 @@ void report_thickness(const topology::Model& model, const surface::LayerTables& 
     for (const auto& [face, own] : tables.of)
         if (own == table) faces.push_back(face);
     const std::vector<double>& heights = tables.heights[index(table)];
-    if (there.off > kThicknessOff) {
+    if (there.off > kVolumeNoted) {
         throw NotSweepable(Message("sweep.layers_thickness",
                                    "the boundary layers of {} are {:.2g} thick instead of {:.2g} near "
                                    "{}: their nodes have no room to move, or are given",

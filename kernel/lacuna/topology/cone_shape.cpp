@@ -41,7 +41,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     if (normals.size() < 4) return {};
     const geometry::Spread spread = geometry::spread_of(normals, areas);
     // Normals that are nearly parallel define no axis.
-    if (spread.square[0] > kOffShape || spread.square[1] < kParallel * kParallel) return {};
+    if (spread.square[0] > kAlikeSizes || spread.square[1] < kParallel * kParallel) return {};
     ConeShape cone;
     cone.axis = spread.axis.col(0);
     const double lean = std::abs(spread.centre.dot(cone.axis));
@@ -72,7 +72,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     if (!(std::abs(fit[0]) > kParallel)) return {};
     cone.least_radius = radius.minCoeff();
     cone.largest_radius = radius.maxCoeff();
-    if (!((line * fit - radius).cwiseAbs().maxCoeff() <= kOffShape * cone.largest_radius)) return {};
+    if (!((line * fit - radius).cwiseAbs().maxCoeff() <= kAlikeSizes * cone.largest_radius)) return {};
     cone.half_angle = std::atan(std::abs(fit[0])) * 180 / std::numbers::pi;
     cone.apex = origin + across * centre - fit[1] / fit[0] * cone.axis;
     if (fit[0] < 0) cone.axis = -cone.axis;

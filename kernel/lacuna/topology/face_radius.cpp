@@ -32,7 +32,7 @@ std::optional<Round> fitted(const Eigen::MatrixXd& points)
     const double radius = std::sqrt(std::max(0.0, found[n] + centre.squaredNorm()));
     if (!(radius > 0) || !std::isfinite(radius)) return {};
     const Eigen::VectorXd distance = (at.rowwise() - centre.transpose()).rowwise().norm();
-    if ((distance.array() - radius).abs().maxCoeff() > kOffShape * radius) return {};
+    if ((distance.array() - radius).abs().maxCoeff() > kAlikeSizes * radius) return {};
     return Round{radius, centre + mean.transpose()};
 }
 
@@ -72,8 +72,8 @@ std::optional<RoundShape> round_shape(const Model& model, FaceId id)
     for (std::size_t p = 0; p < used.size(); ++p)
         points.row(static_cast<Eigen::Index>(p)) = model.at(used[p]).transpose();
     const geometry::Spread looks = geometry::spread_about(Vec3::Zero(), normals, areas);
-    if (looks.square[1] < kOffShape * kOffShape) return {}; // all normals are equal
-    if (looks.square[0] >= kOffShape) {
+    if (looks.square[1] < kAlikeSizes * kAlikeSizes) return {}; // all normals are equal
+    if (looks.square[0] >= kAlikeSizes) {
         const auto sphere = fitted(points);
         // The corners of one row of facets round a cone lie on a sphere too.
         if (!sphere || cone_shape(model, id)) return {};

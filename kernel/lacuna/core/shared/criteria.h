@@ -22,7 +22,8 @@ inline constexpr double kSamePlace = 1e-9;
 
 /// Relative accuracy of coordinates in files: single precision has six to seven digits. Points whose relative
 /// distance from a line or plane is smaller lie on it, vectors with a smaller sine between them are parallel,
-/// and angles with a smaller difference are equal [radian].
+/// angles with a smaller difference are equal [radian], and a number of sides computed from them is rounded
+/// up unless it exceeds a whole number by less.
 inline constexpr double kFileAccuracy = 1e-6;
 
 /// Smaller relative changes of sizes, relative bends of sides and gaps between quads, and smaller angles
@@ -57,7 +58,8 @@ inline constexpr double kBendBelow = 75;
 // Flat
 
 /// Sine of about one degree. Directions count as parallel, and a line counts as straight, if their angle or
-/// its turn is smaller. For comparison: facets in files deviate by tenths of a degree.
+/// its turn is smaller; a tetrahedron whose scaled Jacobian is smaller is a sliver, and a note says so. For
+/// comparison: facets in files deviate by tenths of a degree.
 inline constexpr double kParallel = 0.02;
 
 /// A face is flat if the length of its summed area vector is more than (1 - kFlatShare) times its area. Two
@@ -81,12 +83,11 @@ inline constexpr double kPoorQuad = 0.5, kGoodQuad = 0.8;
 
 /// A hexahedron below this is poor: other sweep directions and sizes are tried. Solvers accept 0.2 and more.
 inline constexpr double kPoorCell = 0.3;
-/// A tetrahedron below this is a sliver, and a note says so. Meshes without narrow places reach 0.1.
-inline constexpr double kSliver = 0.02;
 
-/// Scaled Jacobians whose difference is smaller count as equal: a smaller loss is accepted, and a smaller
-/// gain is not worth any work.
-inline constexpr double kSameQuality = 0.01;
+/// Distance from a face, as a share of a quad's side, up to which a quad follows the face. It exceeds the sag
+/// of a 60° chord (0.13), by which two meshes of one surface may differ. Of points farther away, another part
+/// of the skin may be nearest, or an opposite part of the face.
+inline constexpr double kFollowsFace = 0.25;
 
 // Same volume
 
@@ -95,18 +96,16 @@ inline constexpr double kSameQuality = 0.01;
 inline constexpr double kSameVolume = 0.01;
 
 /// A relative volume difference above this value is reported, whether an assumption or the mesh causes it.
-/// The value is twice the difference below which volumes count as equal.
+/// The value is twice the difference below which volumes count as equal. Rows of boundary layers whose
+/// thickness, and so volume, is off by more are refused.
 inline constexpr double kVolumeNoted = 2 * kSameVolume;
 
 // Same size, same number
 
-/// Lengths, sizes and numbers of sides count as equal if they differ by less than this share. Edges that are
-/// equal in this sense get the same number of sides.
+/// Lengths, sizes, numbers of sides and scaled Jacobians count as equal if they differ by less than this.
+/// Edges that are equal in this sense get the same number of sides, a face whose points have equal distances
+/// from an axis is round, and a smaller gain of quality is not worth any work.
 inline constexpr double kAlikeSizes = 0.01;
-
-/// A computed number of sides is rounded up, unless it exceeds a whole number by less than this. The value is
-/// far above the rounding errors of sizes and lengths, and far below one side.
-inline constexpr double kCountSlack = 1e-6;
 
 /// Increase of the edge length with the distance from a place with short edges [length per length]. Used by
 /// paving and by estimates of the number of quads.

@@ -37,17 +37,13 @@ struct Skin {
 Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std::size_t face_count,
              const RunContext& context = {});
 
-/// Distance from a face, as a share of a quad's side, up to which a quad follows the face; see
-/// `FidelityOptions`. Of points farther away, another part of the skin may be nearest, or an opposite part of
-/// the face.
-inline constexpr double kShareOfSide = 0.25;
-
 /// Allowed distance between a face and its quads: a length, or a share of a quad's side.
 struct DeviationLimit {
     double length = 0; ///< the same for all quads [model length]; 0: a share of the side
-    double share = 0;  ///< allowed distance as a share of the side of a quad
-    double at_tip = 0; ///< `share` within two sides of a tip of the face, such as the apex of a cone
-    double least = 0;  ///< lower bound of the allowed distance, for short sides [model length]
+    /// Allowed distance as a share of the side of a quad. Within two sides of a tip of the face, such as the
+    /// apex of a cone, a whole side is allowed, because at most four quads meet there.
+    double share = 0;
+    double least = 0; ///< lower bound of the allowed distance, for short sides [model length]
     /// Whether inverted quads are reported as folds. False for void faces: if such a face is sharply twisted,
     /// the facet nearest to a quad may have any orientation.
     bool folds = true;

@@ -17,10 +17,6 @@ struct KeptThickness {
     std::vector<std::string> report; ///< a line for each table
 };
 
-/// Relative tolerance of a row's thickness after all moves. The remaining error comes from walls and ends
-/// that bend within one cell. Heuristic.
-inline constexpr double kThicknessOff = 0.02;
-
 /// Move nodes so that boundary layers have the requested thickness, measured normal to the faces of the mesh
 /// at their base: rows along walls in every layer, and layers along ends.
 ///

@@ -18,11 +18,6 @@ FacetNormals facet_normals(const Model& model, FaceId face);
 /// The corners of a face's facets, ascending.
 std::vector<Index> corner_points(const Face& face);
 
-/// A face is on a cylinder, sphere or cone if its facets' corners deviate by at most this share of the
-/// radius. The value is well above the rounding of coordinates in files, and below the deviation of other
-/// shapes.
-inline constexpr double kOffShape = 0.01;
-
 /// The cone that a face lies on.
 struct ConeShape {
     double half_angle = 0;     ///< between axis and surface, in (0, 90) [degrees]
