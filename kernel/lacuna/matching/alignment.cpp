@@ -203,7 +203,7 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
         problem, source, target, rated(problem, nullptr, source, target, true, problem.backward, led).front(),
         led);
     return straight.backward != found.front().backward ||
-           mean_twist(source, target, found.front(), straight) > kMostTwist;
+           mean_twist(source, target, found.front(), straight) > most_twist();
 }
 
 PointPairs with_led(const Problem& problem, std::size_t s, PointPairs known)

@@ -266,7 +266,7 @@ private:
                                 .remedy("give 'vertices' in the same order around both loops"));
         }
         const ArcPairs pairs = pair_by_arc(low_loop, high_loop, chosen_[s].offset, chosen_[s].backward, hard,
-                                           kMostTwist);
+                                           most_twist());
         for (const auto& [from, to] : pairs.vertices) add_pair(from, to);
         for (const auto& [vertex, share] : pairs.split_target)
             match_.splits.push_back(split_at(vertex, true, match_.target_loops[t], high, share));

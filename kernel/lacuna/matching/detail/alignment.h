@@ -2,16 +2,19 @@
 #pragma once
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/matching/detail/problem.h>
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace lacuna::matching {
 
-/// Largest mean twist of void edges, as a share of the loop's length. A round wall that is ruled with this
-/// twist is narrower halfway up by 1 − cos(π/32), half a percent.
-inline constexpr double kMostTwist = 1.0 / 32;
+/// Largest mean twist of void edges, as a share of the loop's length. The area halfway up a round wall that
+/// is ruled with the twist t is smaller by 1 − cos²(πt), which is here the difference of equal volumes.
+inline double most_twist() { return std::asin(std::sqrt(kSameVolume)) / std::numbers::pi; }
 
 /// A cyclic shift and a direction that map a source loop to a target loop.
 struct Alignment {

@@ -51,7 +51,7 @@ struct Problem {
     /// - the loops have different numbers of vertices, or one vertex each;
     /// - no pairing of vertices keeps the pairs that walls join;
     /// - the best pairing joins a corner with a smooth vertex, although a corner is available;
-    /// - the best pairing joins no two corners, and its mean twist exceeds `kMostTwist`.
+    /// - the best pairing joins no two corners, and its mean twist exceeds `most_twist()`.
     [[nodiscard]] bool paired_by_length(std::size_t s, std::size_t t) const;
     /// The pairs of `led` whose source points are nearest to the centroid of a source loop.
     [[nodiscard]] PointPairs led_near(std::size_t s) const;
