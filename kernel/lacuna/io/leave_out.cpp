@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -377,13 +378,12 @@ LeftOut leave_out(const Deck& deck, std::span<const std::string> parts)
 
 Deck close_gap(Deck deck, const RunContext& context)
 {
-    // A polygon of 60° chords is 4.5 % shorter than its circle, so two meshes of one surface may differ in
-    // area by up to this share.
-    constexpr double kSameArea = 0.05;
+    // Two meshes of one surface may differ in area as much as a hexagon is shorter than its circle.
+    const auto differs = [](double ratio) { return std::min(ratio, 1 / ratio) < 3 / std::numbers::pi; };
     std::vector<std::string> lost;
     for (const auto& gone : deck.gap.gone)
         for (const DeckSet& set : gone->sets)
-            if (std::abs(deck.gap.replaced[{set.kind, set.name}] - 1) > kSameArea) lost.push_back(set.name);
+            if (differs(deck.gap.replaced[{set.kind, set.name}])) lost.push_back(set.name);
     if (!lost.empty())
         log_line(context, formatted("note: {}: these sets lost members that no mesh fully replaced: {}",
                                     deck.path, listed(lost)));

@@ -11,9 +11,6 @@ namespace {
 
 /// Data fields of a line; large ones take two lines.
 constexpr std::size_t kFields = kCardColumns / kCardField - 2;
-/// Number of cards that replication may create, in addition to one card for each sixteen bytes of the file.
-/// Without a limit, a wrong count would fill the memory. Not measured.
-constexpr std::size_t kReplicas = 10'000;
 
 bool begins_with(std::string_view line, std::string_view word)
 {
@@ -121,7 +118,7 @@ std::string Card::text(std::size_t first) const
 }
 
 BulkData::BulkData(Cursor& cursor)
-    : main_(cursor), start_(cursor), files_(cursor), bulk_(true), room_(kReplicas + cursor.rest().size() / 16)
+    : main_(cursor), start_(cursor), files_(cursor), bulk_(true), room_(kMadePerByte * cursor.rest().size())
 {
     for (Cursor scout = cursor; bulk_ && !scout.at_end();) bulk_ = !is_bulk_line(scout.line(), "BEGIN");
 }

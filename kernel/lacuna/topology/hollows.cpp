@@ -260,7 +260,6 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
 
 std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const RunContext& context)
 {
-    constexpr double kInside = 0.6; // above 0.5, the winding number of a point on the skin itself
     std::set<int> own;
     for (const Face& face : volume.faces)
         if (face.origin == Origin::given) own.insert(face.tag);
@@ -279,7 +278,8 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
             const auto centre = [&](const Triangle& t) { return facet_centre(model, t); };
             const Vec3 deepest = centre(*std::ranges::max_element(
                 model[face].triangles, {}, [&](const Triangle& t) { return depth(centre(t)); }));
-            return depth(deepest) > 0 && std::abs(tree->winding_number(deepest)) > kInside;
+            // The winding number is 1 inside and a half on the skin itself, up to rounding.
+            return depth(deepest) > 0 && 2 * std::abs(tree->winding_number(deepest)) > 1 + kVisible;
         });
         if (inside != shell.end()) found.push_back(*inside);
     }

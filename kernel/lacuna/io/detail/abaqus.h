@@ -121,10 +121,6 @@ public:
 private:
     void finish_part(AbaqusPart& part);
 
-    // Number of set members and copied entities that each byte of the file may generate. It allows about
-    // fifty sets of all elements; not measured.
-    static constexpr std::size_t kMadePerByte = 16;
-
     const Cursor& main_;
     DeckBuilder& into_;
     const DeckFiles& files_;

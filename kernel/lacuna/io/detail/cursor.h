@@ -34,6 +34,9 @@ enum class Exponents { plain, fortran };
 
 /// Characters of a real number, at most: a double written out in full has some 330.
 inline constexpr std::size_t kLongestReal = 400;
+/// Number of set members, copied entities or replicated cards that each byte of a file may generate: a wrong
+/// count would fill the memory. It allows about fifty sets of all elements of an Abaqus file; not measured.
+inline constexpr std::size_t kMadePerByte = 16;
 /// The text as a finite number, in any locale; empty if it is not a number. A number too small for a double
 /// gives 0.
 std::optional<double> parse_real(std::string_view text, Exponents exponents = Exponents::plain);
