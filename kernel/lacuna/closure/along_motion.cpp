@@ -24,12 +24,9 @@ using namespace topology;
 
 namespace {
 
-/// Number of intervals at which a function of the height is sampled; cubics interpolate the samples. With
-/// this number, one period of a sine over the whole height is reproduced to one part in a million.
-constexpr int kProfileSteps = 128;
-/// Number of intervals at which a path given as a function is sampled. With this number, a path of five turns
-/// is reproduced to 1e-6 of the turns' radius.
-constexpr int kPathSteps = 1024;
+/// Number of intervals at which a function of the user (path, twist or scale) is sampled. With this number, a
+/// path of five turns is reproduced to 1e-6 of the turns' radius.
+constexpr int kSteps = 1024;
 
 // --- twist and scale ---------------------------------------------------------------------------------------
 
@@ -42,8 +39,8 @@ std::function<double(double)> sampled(const Along::Profile& profile, double firs
         return [first, last](double height) { return (1 - height) * first + height * last; };
     }
     std::vector<double> values;
-    for (int k = 0; k <= kProfileSteps; ++k) {
-        const double height = static_cast<double>(k) / kProfileSteps;
+    for (int k = 0; k <= kSteps; ++k) {
+        const double height = static_cast<double>(k) / kSteps;
         values.push_back(profile.at(height));
         if (!std::isfinite(values.back()))
             throw InvalidInput(Message("closure.along_profile",
@@ -58,7 +55,7 @@ std::function<double(double)> sampled(const Along::Profile& profile, double firs
                                    found(values.front()))
                                .remedy("let the function return {} there", needed(first)));
     return [values = std::move(values)](double height) {
-        const double at = std::clamp(height, 0.0, 1.0) * kProfileSteps;
+        const double at = std::clamp(height, 0.0, 1.0) * kSteps;
         const auto i = std::min(static_cast<std::size_t>(at), values.size() - 2);
         const auto slope = [&](std::size_t k) {
             const std::size_t low = k > 0 ? k - 1 : 0, high = std::min(k + 1, values.size() - 1);
@@ -75,16 +72,15 @@ geometry::Distortion distortion_of(const Along& along)
     if (along.twist) {
         const auto degrees = sampled(*along.twist, 0, "twist");
         by.twist = [degrees](double height) { return degrees(height) * kDegree; };
-        for (int k = 0; k < kProfileSteps; ++k)
-            by.most_twist += std::abs(by.twist((k + 1.0) / kProfileSteps) -
-                                      by.twist(1.0 * k / kProfileSteps));
+        for (int k = 0; k < kSteps; ++k)
+            by.most_twist += std::abs(by.twist((k + 1.0) / kSteps) - by.twist(1.0 * k / kSteps));
         by.even = by.even && !along.twist->at;
     }
     if (along.scale) {
         by.scale = sampled(*along.scale, 1, "scale");
         by.even = by.even && !along.scale->at;
-        for (int k = 0; k <= kProfileSteps; ++k) {
-            const double height = static_cast<double>(k) / kProfileSteps;
+        for (int k = 0; k <= kSteps; ++k) {
+            const double height = static_cast<double>(k) / kSteps;
             if (by.scale(height) > 0) continue;
             throw InvalidInput(Message("closure.along_scale", "along: 'scale' is {:.3g} at the height {:.3g}",
                                        found(by.scale(height)), height)
@@ -170,11 +166,11 @@ std::vector<geometry::PathPart> path_of_edges(const Model& model, const std::vec
 std::vector<geometry::PathPart> path_of_function(const std::function<Vec3(double)>& curve)
 {
     geometry::PathPart part;
-    for (int k = 0; k <= kPathSteps; ++k) {
-        part.push_back(curve(static_cast<double>(k) / kPathSteps));
+    for (int k = 0; k <= kSteps; ++k) {
+        part.push_back(curve(static_cast<double>(k) / kSteps));
         if (!part.back().allFinite())
             throw InvalidInput(Message("closure.along_path", "along: the path has no finite point at {}",
-                                       found(static_cast<double>(k) / kPathSteps))
+                                       found(static_cast<double>(k) / kSteps))
                                    .remedy("let the function return x, y, z for every t from 0 to 1"));
     }
     const auto parts = cut_at_corners(part);

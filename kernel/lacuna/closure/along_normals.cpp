@@ -84,11 +84,10 @@ std::vector<Vec3> unit_offsets(const Model& model)
         Eigen::MatrixXd rows(std::ssize(sums), 3);
         for (std::size_t i = 0; i < sums.size(); ++i)
             rows.row(static_cast<Eigen::Index>(i)) = sums[i].stableNormalized().transpose();
-        // A pivot below this threshold counts as zero. Normals that differ by the crease angle must count as
-        // independent: their pivots are 1 and sin 30° = 0.5.
-        constexpr double kDependent = 0.1;
+        // Normals that differ by the crease angle are independent: their pivots are 1 and the sine of this
+        // angle. A pivot below half of it counts as zero.
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-        solver.setThreshold(kDependent);
+        solver.setThreshold(std::sin(kCreaseAngle * kDegree) / 2);
         solver.compute(rows);
         offsets[p] = solver.solve(Eigen::VectorXd::Ones(rows.rows()));
     }

@@ -228,9 +228,7 @@ private:
         const double lean = leads() ? 0 : lean_of(volume_);
         if (lean > kBend || (lean > kLean && has_round_ends(volume_)))
             return {{EdgeShape::smooth}, {EdgeShape::straight}};
-        if (leads())
-            ways.insert(follower_->leads_astray(volume_, match) ? ways.begin() : ways.end(),
-                        {EdgeShape::follow});
+        if (leads()) ways.insert(follower_->leads_astray() ? ways.begin() : ways.end(), {EdgeShape::follow});
         ways.push_back({EdgeShape::smooth});
         return ways;
     }

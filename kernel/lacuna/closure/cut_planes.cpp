@@ -24,10 +24,6 @@ using namespace topology;
 
 namespace {
 
-/// Length of the mean normal of a cylinder that turns by a right angle; that of a flat face is 1, that of a
-/// full turn 0.
-constexpr double kQuarterTurn = 2 * std::numbers::sqrt2 / std::numbers::pi;
-
 bool are_parallel(const Vec3& a, const Vec3& b) { return a.cross(b).norm() < kParallel; }
 
 /// The direction of a straight edge; empty if the edge is curved.

@@ -19,11 +19,6 @@ namespace {
 /// of the section by about twice the bow. It is higher here, because walls with a given mesh and single
 /// twisted walls with few facets may have such a bow although the true wall is straight.
 constexpr double kAstrayOpen = 0.04;
-/// If walls that form no ring have a bow above kBeside, they possibly do not belong to a sweep. Void edges
-/// that follow such walls are then tried before straight ones only if an edge would leave its chord by more
-/// than kFarAstray. kBeside is relative to the radius of the source's rim, kFarAstray to the smaller radius
-/// of the two rims.
-constexpr double kBeside = 0.5, kFarAstray = 0.25;
 
 /// Mean distance of points from their centroid; 0 if there are none.
 double mean_radius(const std::vector<Vec3>& points)
@@ -32,23 +27,6 @@ double mean_radius(const std::vector<Vec3>& points)
     double sum = 0;
     for (const Vec3& p : points) sum += (p - middle).norm();
     return points.empty() ? 0 : sum / static_cast<double>(points.size());
-}
-
-/// Mean radius of an end's rim points, over all its loops.
-double radius_of(const topology::OpenVolume& volume, topology::Role end)
-{
-    const topology::Model& model = volume.model;
-    std::vector<Vec3> points;
-    for (const topology::EdgeUse& use : topology::rim_uses(model, volume.faces(end)))
-        for (const Index p : model[use.edge].points) points.push_back(model.at(p));
-    return mean_radius(points);
-}
-
-/// Distance of a point from a straight line.
-double off_line(const Vec3& point, const Vec3& from, const Vec3& way)
-{
-    const Vec3 off = point - from;
-    return (off - off.dot(way) * way).norm();
 }
 
 /// The upper median of some numbers. @pre not empty
@@ -162,23 +140,6 @@ Vec3 Follower::arriving(const Vec3& target) const
     return (target - ways_[0].from_target[kFineChords - 1](target)).stableNormalized();
 }
 
-bool Follower::leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const
-{
-    if (closed_ || bow_ <= kBeside) return bow_ > (closed_ ? kSameVolume / 2 : kAstrayOpen);
-    const topology::Model& model = volume.model;
-    const std::vector<bool> on_wall = volume.on_wall();
-    const double reach = kFarAstray * std::min(radius_of(volume, topology::Role::source),
-                                               radius_of(volume, topology::Role::target));
-    for (const auto& [source, target] : match.vertices) {
-        if (on_wall[source.index()] || on_wall[target.index()]) continue;
-        const Vec3 from = model.at(model[source].point), to = model.at(model[target].point);
-        const Vec3 way = (to - from).stableNormalized();
-        for (int k = 1; k < kFineChords; ++k) {
-            if (off_line(morph(from, to, static_cast<double>(k) / kFineChords), from, way) > reach)
-                return true;
-        }
-    }
-    return false;
-}
+bool Follower::leads_astray() const { return bow_ > (closed_ ? kSameVolume / 2 : kAstrayOpen); }
 
 } // namespace lacuna::closure

@@ -23,10 +23,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -123,37 +121,21 @@ bool is_far_off_plane(const Model& model, double enclosed, FaceId face)
     return beside_plane(model, face) >= kDoubt * enclosed;
 }
 
-/// The angles between consecutive segments of a chain, largest first [radians].
-std::vector<double> turns_of(const std::vector<Vec3>& chain)
+/// Whether an edge consists of straight parts with corners between them.
+bool is_straight_between_corners(const Model& model, const EdgeUse& use)
 {
-    std::vector<double> turns;
+    const std::vector<Vec3> chain = use_places(model, use);
     for (std::size_t i = 2; i < chain.size(); ++i) {
-        const Vec3 before = chain[i - 1] - chain[i - 2], after = chain[i] - chain[i - 1];
-        turns.push_back(geometry::angle_between(before, after));
+        const double turn = geometry::angle_between(chain[i - 1] - chain[i - 2], chain[i] - chain[i - 1]);
+        if (turn > kParallel && turn < kCreaseAngle * kDegree) return false;
     }
-    std::ranges::sort(turns, std::greater{});
-    return turns;
-}
-
-/// Whether an edge consists of straight segments with a few kinks between them.
-bool is_straight_between_kinks(const Model& model, const EdgeUse& use)
-{
-    // The `kKinks` sharpest kinks of such an edge make at least the share `kTurnedThere` of the edge's total
-    // turn. A ridge, a chamfer or a notch has up to three kinks. A curve of four segments is accepted too; a
-    // larger `kKinks` would also accept finer curves.
-    constexpr std::size_t kKinks = 3;
-    constexpr double kTurnedThere = 0.9;
-    if (is_straight(model, {use})) return true;
-    const std::vector<double> turns = turns_of(use_places(model, use));
-    const auto kinks_end = turns.begin() + static_cast<std::ptrdiff_t>(std::min(kKinks, turns.size()));
-    return std::accumulate(turns.begin(), kinks_end, 0.0) >=
-           kTurnedThere * std::accumulate(turns.begin(), turns.end(), 0.0);
+    return true;
 }
 
 bool is_straight_sided(const Model& model, const Loop& loop)
 {
     return std::ranges::all_of(loop.uses,
-                               [&](const EdgeUse& use) { return is_straight_between_kinks(model, use); });
+                               [&](const EdgeUse& use) { return is_straight_between_corners(model, use); });
 }
 
 /// Whether a polygonal rim is too far off a plane. The measure is half of the face's projected area times the

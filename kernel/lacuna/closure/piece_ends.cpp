@@ -26,8 +26,6 @@ namespace {
 /// Largest number of candidates for ends of a piece; those of few faces come first. 600 is enough for a prism
 /// with twelve sides. With a higher limit, ends of more faces are found; the cost is quadratic in the limit.
 constexpr std::size_t kMostEnds = 600;
-/// A face may belong to an end if its mean normal is longer than 1 − kFlat. The length is 1 for a flat face.
-constexpr double kFlat = 0.1;
 /// Subtracted from the cost of a pair for each end that the user named. A higher value keeps named ends at
 /// the price of worse cells.
 constexpr double kNamed = 0.1;
@@ -111,13 +109,13 @@ public:
             if (found.size() < kMostEnds && known.insert(set).second) found.push_back(set);
         };
         for (std::size_t f = 0; f < faces_.size(); ++f)
-            if (faces_[f].normal.norm() > 1 - kFlat) add(one(f));
+            if (faces_[f].normal.norm() > kQuarterTurn) add(one(f));
         for (std::size_t i = 0; i < found.size(); ++i) {
             const FaceSet set = found[i];
             FaceSet beside = 0;
             for_each(set, [&](std::size_t f) { beside |= faces_[f].beside; });
             for_each(beside & ~set, [&](std::size_t next) {
-                bool fits = faces_[next].normal.norm() > 1 - kFlat;
+                bool fits = faces_[next].normal.norm() > kQuarterTurn;
                 for_each(set, [&](std::size_t f) {
                     fits = fits && faces_[f].normal.dot(faces_[next].normal) > -kFacesEnd;
                 });
@@ -128,13 +126,14 @@ public:
     }
 
     /// The faces whose mean normal is within 60° of a direction, such as a flat end with its grooves and
-    /// hollows. Faces whose mean normal has a length of kFlat or less are left out: the mean normal of a
-    /// closed ring is 0 but for rounding, so its direction means nothing.
+    /// hollows. Faces whose mean normal is shorter than what a quarter turn takes off it are left out:
+    /// the mean normal of a closed ring is 0 but for rounding, so its direction means nothing.
     [[nodiscard]] FaceSet facing(const Vec3& direction) const
     {
         FaceSet set = 0;
         for (std::size_t f = 0; f < faces_.size(); ++f)
-            if (faces_[f].normal.dot(direction) > std::max(faces_[f].normal.norm() / 2, kFlat)) set |= one(f);
+            if (faces_[f].normal.dot(direction) > std::max(faces_[f].normal.norm() / 2, 1 - kQuarterTurn))
+                set |= one(f);
         return set;
     }
 

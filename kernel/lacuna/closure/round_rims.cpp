@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
@@ -272,7 +273,6 @@ void join_rounds(OpenVolume& volume, const RunContext& context)
 
 bool is_end_with_walls(const Model& model, FaceId face, const Vec3& axis)
 {
-    constexpr double kUpright = 0.17; // cosine of 80 degrees: walls taper by up to 10
     const Vec3 net = face_area_vector(model, face);
     if (std::abs(net.dot(axis)) < std::cos(kCreaseAngle * kDegree) * net.norm() ||
         border_loops(model, face).size() != 1 || !model[face].given_quads.empty())
@@ -281,7 +281,7 @@ bool is_end_with_walls(const Model& model, FaceId face, const Vec3& axis)
     for (const Triangle& t : model[face].triangles) {
         const double cosine = std::abs(slope_of(model, t, axis, axis).cosine);
         flat = flat || cosine > kContinues;
-        upright = upright || cosine < kUpright;
+        upright = upright || cosine < kFacesEnd;
     }
     return flat && upright;
 }

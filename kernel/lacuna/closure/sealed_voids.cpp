@@ -22,10 +22,9 @@ using namespace topology;
 
 namespace {
 
-/// The void faces of two volumes coincide if their distance is below this share of the cube root of the
-/// volume. Two triangulations of the same void face are closer to each other; faces of different voids are
-/// further apart.
-constexpr double kSameSkin = 0.02;
+/// The void faces of two volumes coincide if their distance is below this [model length]. If void faces have
+/// the area of a face of a cube, the volume between faces at this distance would be reported.
+double same_skin(double enclosed) { return kVolumeNoted * std::cbrt(enclosed); }
 /// Added to the cost of the ends if all void faces are bent by a half turn. A closing with flat faces is
 /// likelier than one with bent faces. A higher value drops more closings with bent faces.
 constexpr double kBentVoid = 0.5;
@@ -69,7 +68,7 @@ bool lies_on(const Sealed& sealed, const geometry::FacetTree& other, double near
 bool enclose_the_same(const Sealed& a, const Sealed& b)
 {
     if (!same_volume(a.enclosed, b.enclosed)) return false;
-    const double near = kSameSkin * std::cbrt(std::max(a.enclosed, b.enclosed));
+    const double near = same_skin(std::max(a.enclosed, b.enclosed));
     return lies_on(a, void_facets(b), near) && lies_on(b, void_facets(a), near);
 }
 
@@ -193,7 +192,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     const auto known = [&](const std::vector<Vec3>& places) {
         if (found.size() != 1) return false;
         const geometry::FacetTree made = void_facets(found.front().sealed);
-        const double near = kSameSkin * std::cbrt(found.front().sealed.enclosed) / 4;
+        const double near = same_skin(found.front().sealed.enclosed) / 4;
         return std::ranges::all_of(places,
                                    [&](const Vec3& p) { return made.closest(p, near * near).triangle >= 0; });
     };

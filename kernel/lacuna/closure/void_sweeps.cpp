@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
@@ -19,10 +20,6 @@ namespace lacuna::closure {
 using namespace topology;
 
 namespace {
-
-/// Number of other sweep directions that are kept, to be tried if the first cannot be meshed. Each may cost
-/// as much time as the first.
-constexpr std::size_t kMostOthers = 3;
 
 /// Whether a closed skin with these roles can be cut at the steps of its ends; true if there are no steps.
 bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context)
@@ -110,7 +107,7 @@ std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
 }
 
 /// Remove and return the best sweep: of those with the fewest irregular nodes, the one with the lowest
-/// `openness()`. At most `kMostOthers` others are kept. @pre sorted by irregular nodes
+/// `openness()`. At most `kMostTrials` others are kept. @pre sorted by irregular nodes
 RoleCandidate take_best(std::vector<RoleCandidate>& sweeps,
                         const std::function<Ends(const RoleCandidate&)>& ends_of,
                         const std::vector<RoleCandidate>& ways)
@@ -121,7 +118,7 @@ RoleCandidate take_best(std::vector<RoleCandidate>& sweeps,
         sweeps.begin(), end, {}, [&](const RoleCandidate& way) { return openness(ends_of(way), ways); });
     RoleCandidate taken = std::move(*best);
     sweeps.erase(best);
-    if (sweeps.size() > kMostOthers) sweeps.resize(kMostOthers);
+    if (sweeps.size() > kMostTrials) sweeps.resize(kMostTrials);
     return taken;
 }
 

@@ -48,7 +48,7 @@ public:
 
     /// Whether the given walls are so far from straight lines between the rims that void walls between
     /// straight edges would enclose a clearly different volume. @pre leads()
-    [[nodiscard]] bool leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const;
+    [[nodiscard]] bool leads_astray() const;
 
     /// Distance of the walls from straight lines between the rims, as a share of the source rim's radius. For
     /// each point of the rim, the largest distance at any height counts; the result is the median of these.

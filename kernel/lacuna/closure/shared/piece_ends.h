@@ -6,6 +6,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace lacuna::closure {
 /// 70°. A steeper face, such as a riser between two steps, is nearly parallel to the columns, and cells at
 /// the face would have almost no volume.
 inline constexpr double kFacesEnd = 0.34;
+
+/// Length of the mean normal of a cylinder that turns by a right angle; that of a flat face is 1, that of a
+/// full turn 0. A face that bends more cannot belong to an end.
+inline constexpr double kQuarterTurn = 2 * std::numbers::sqrt2 / std::numbers::pi;
 
 /// Cut pieces, and the number of those whose ends were chosen again.
 struct ReadPieces {
