@@ -10,15 +10,6 @@
 
 namespace lacuna::sweep {
 
-namespace {
-
-/// Up to this height over a facet, as a share of its smallest altitude, only adjacent facets can be nearer
-/// than the foot point, and their angles show whether they are. Above this height, facets folded by up to 90°
-/// are assumed. Not measured.
-constexpr double kLow = 0.1;
-
-} // namespace
-
 FacetWalk::FacetWalk(std::span<const Vec3> points, std::span<const Triangle> triangles)
     : frame_(triangles.size()), across_(triangles.size(), {-1, -1, -1})
 {
@@ -41,27 +32,6 @@ FacetWalk::FacetWalk(std::span<const Vec3> points, std::span<const Triangle> tri
         }
         set_frame(i, {points[index(triangles[i][0])], points[index(triangles[i][1])],
                       points[index(triangles[i][2])]});
-    }
-    // The normals at each point lie in a cone, whose axis and half angle bound the angles between them.
-    // Comparing normals in pairs would take the square of the number of facets at an apex.
-    std::vector<Vec3> axis(points.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (const Index corner : triangles[i]) axis[index(corner)] += frame_[i].normal;
-    for (Vec3& sum : axis) sum = sum.stableNormalized();
-    std::vector<double> cone(points.size(), 1); // cosine of the half angle; 0 if a facet has no normal
-    const auto cosine = [&](std::size_t i, Index corner) {
-        return std::min(1.0, axis[index(corner)].dot(frame_[i].normal));
-    };
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (const Index corner : triangles[i])
-            cone[index(corner)] = std::min(cone[index(corner)], cosine(i, corner));
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        double least = 1; // lower bound of the cosine of the largest angle to a neighbour
-        for (const Index corner : triangles[i]) {
-            const double a = cosine(i, corner), b = cone[index(corner)];
-            least = std::min({least, b, a * b - std::sqrt((1 - a * a) * (1 - b * b))});
-        }
-        frame_[i].fold = least > 0 ? std::sqrt((1 - least) / (1 + least)) : 1;
     }
 }
 
@@ -106,8 +76,7 @@ std::optional<FacetWalk::Foot> FacetWalk::over(const Vec3& point, Index start) c
             continue;
         }
         const double clear = foot.barycentric.cwiseProduct(frame.altitude).minCoeff();
-        const bool low = height <= kLow * frame.altitude.minCoeff();
-        foot.nearest = height <= frame.rounding || (low ? frame.fold : 1) * height <= clear;
+        foot.nearest = height <= std::max(clear, frame.rounding);
         return foot;
     }
     return std::nullopt;

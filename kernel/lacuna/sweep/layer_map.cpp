@@ -44,18 +44,10 @@ struct Factors {
     }
 };
 
-/// The residual of node `i`. The residual of a later node is prefetched, because residuals are not stored in
-/// the order of the nodes.
-LACUNA_INLINE const double* residual_of(const HarmonicSpread::Fields* residuals, std::size_t i,
-                                        std::size_t end)
+/// The residual of node `i`; null if there are none.
+LACUNA_INLINE const double* residual_of(const HarmonicSpread::Fields* residuals, std::size_t i)
 {
-    constexpr std::size_t kAhead = 8, kLine = 8; // nodes to look ahead; numbers in a cache line
-    if (residuals == nullptr) return nullptr;
-    if (const double* row = i + kAhead < end ? residuals->of(i + kAhead) : nullptr) {
-        __builtin_prefetch(row);
-        __builtin_prefetch(row + kLine);
-    }
-    return residuals->of(i);
+    return residuals == nullptr ? nullptr : residuals->of(i);
 }
 
 LACUNA_INLINE void map_each(const Layers& layers, std::size_t count, const Vec3* source, const Vec3* target,
@@ -63,7 +55,7 @@ LACUNA_INLINE void map_each(const Layers& layers, std::size_t count, const Vec3*
 {
     for (std::size_t i = begin; i < end; ++i) {
         const Factors s(source[i]), t(target[i]);
-        const double* residual = residual_of(residuals, i, end);
+        const double* residual = residual_of(residuals, i);
         for (std::size_t l = 0; l < count; ++l) {
             const Layer& layer = layers[l];
             const Four *a = layer.from_source.column, *b = layer.from_target.column;

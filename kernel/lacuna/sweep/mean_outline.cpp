@@ -23,11 +23,6 @@ using namespace topology;
 
 namespace {
 
-/// The quads at a node of the mean outline need 90° each. If the outline's angle is smaller than their sum by
-/// more than the first value, the node is moved inward until the difference is the second value. If 45° were
-/// missing, the paver would place one quad fewer there. Not measured.
-constexpr double kMayLack = 40 * kDegree, kLacks = 30 * kDegree;
-
 /// Interior angle at b [0, 2 π); the region lies to the left of a, b, c.
 double inner_angle(const Vec2& a, const Vec2& b, const Vec2& c)
 {
@@ -73,9 +68,9 @@ void draw_in(const std::vector<Index>& loop, FlatRims& rims)
                                        inner_angle(rims.high[a], rims.high[b], rims.high[c]));
         // In a wider corner than this, a quad would be poor.
         const double quads = std::ceil(larger / (std::numbers::pi - std::asin(kPoorQuad)));
-        if (inner_angle(mean[a], mean[b], mean[c]) >= quads * kRightAngle - kMayLack) continue;
-        const double wanted = quads * kRightAngle - kLacks;
-        if (wanted >= std::numbers::pi) continue;
+        // The quads need 90° each, and may lack less than a crease.
+        const double wanted = quads * kRightAngle - kCreaseAngle * kDegree;
+        if (inner_angle(mean[a], mean[b], mean[c]) >= wanted || wanted >= std::numbers::pi) continue;
         const Vec2 chord = mean[c] - mean[a];
         const Vec2 outward(chord.y(), -chord.x());
         rims.mean[b] = (mean[a] + mean[c]) / 2 + outward / (2 * std::tan(wanted / 2));

@@ -4,6 +4,7 @@
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/shared/default_size.h>
@@ -103,8 +104,6 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     return std::move(swept);
 }
 
-/// Maximum number of meshes that are tried for a volume without wedges, and again with wedges.
-constexpr std::size_t kMostTried = 6;
 /// Error code for given triangles on an end. No plan may remesh them unless the user requests it.
 constexpr std::string_view kOwnTriangles = "surface.given_triangles";
 
@@ -182,7 +181,7 @@ private:
     std::optional<Message> refusal_;
     std::vector<std::string> tried_; ///< a line for each plan
     /// Number of plans that may still be tried, without wedges and with wedges.
-    std::array<std::size_t, 2> left_{kMostTried, kMostTried};
+    std::array<std::size_t, 2> left_{kMostTrials, kMostTrials}; ///< trials left, without and with wedges
 };
 
 /// The options, with intervals requested on side lines added as layers.
@@ -229,15 +228,13 @@ Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunConte
     return Search(volume, options, links, context).run(plans(volume, options, links, context));
 }
 
-/// Volume error at which the suggested sizes aim. It is below the limit of 1 %, because on bends and barrels
-/// the actual error was up to 1.6 times the estimate.
-constexpr double kWanted = 0.006;
-
 /// Report the volume difference, and the 'size' and 'layers' that should keep it within 1 %. The error of
-/// straight sides grows with the square of their length. A size does not change quads that are kept.
+/// straight sides grows with the square of their length. The suggestion aims at half of the limit, because on
+/// bends and barrels the actual error was up to 1.6 times the estimate. A size does not change quads that are
+/// kept.
 std::string volume_in_words(const Swept& swept, const OpenVolume& volume, const SweepOptions& options)
 {
-    const double lost = volume_lost(swept.fidelity), part = std::sqrt(kWanted / std::abs(lost));
+    const double lost = volume_lost(swept.fidelity), part = std::sqrt(kSameVolume / 2 / std::abs(lost));
     double length = 0;
     for (const Segment& side : swept.mesh.rim)
         length += (swept.mesh.nodes[index(side[1])] - swept.mesh.nodes[index(side[0])]).norm();

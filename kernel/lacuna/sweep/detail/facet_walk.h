@@ -23,9 +23,9 @@ public:
         Index facet = -1;
         Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, 0 to 1 to rounding, sum 1
         double height = 0;               ///< over the facet, along its normal [model length]
-        /// Whether no other facet can be closer to the point. This is so if the foot point is far enough from
-        /// the facet's sides, in view of the angles between the facet and the adjacent facets. Facets farther
-        /// away are assumed to be folded no more sharply. If false, the distance is still an upper bound.
+        /// Whether no other facet can be closer to the point, if facets are folded by at most 90°: the foot
+        /// point is at least as far from the facet's sides as the point is high. If false, the distance is
+        /// still an upper bound.
         bool nearest = false;
     };
     /// The facet below a point.
@@ -46,9 +46,6 @@ private:
         /// Altitude of each corner over the opposite side; zero: the facet is too thin.
         Vec3 altitude = Vec3::Zero();
         double rounding = 0; ///< tolerance of distances [model length]
-        /// Upper bound of the tangent of half the angle between this facet's normal and the normals of facets
-        /// at its corners.
-        double fold = 1;
     };
     void set_frame(std::size_t facet, const std::array<Vec3, 3>& corners);
 
