@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/cad/detail/exact_geometry.h>
 
+#include <lacuna/core/shared/constants.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -10,16 +12,12 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Number of points per request. With this number, the overhead of a request is negligible, a call can be
-/// cancelled within 0.1 s, and a request of another thread waits no longer than that. Measured on a million
-/// points of a sphere, for which requests of 100,000 points are slower.
-constexpr std::size_t kAtOnce = 20'000;
 /// Time that a request for points may continue after it is cancelled [s]. If the request ends within this
 /// time, the process is not killed and keeps the models that it holds.
 constexpr double kGrace = 0.3;
 
-/// Ask the process that holds a face or curve for points, `kAtOnce` at a time. Overwrites the points and, on
-/// a surface, also their parameters.
+/// Ask the process that holds a face or curve for points, `kBetweenPolls` at a time. Overwrites the points
+/// and, on a surface, also their parameters.
 /// @param kind   kind of the entity, for messages
 /// @param doing  as in Task
 /// @param make   `make(handle, from, count)` makes the request for some of the points.
@@ -27,9 +25,9 @@ template <class Reply, class Make>
 void ask_points(const CadEntity& entity, const char* kind, const char* doing, Opcode opcode, const Make& make,
                 std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context)
 {
-    for (std::size_t from = 0; from < points.size(); from += kAtOnce) {
+    for (std::size_t from = 0; from < points.size(); from += kBetweenPolls) {
         check_cancelled(context);
-        const std::size_t count = std::min(kAtOnce, points.size() - from);
+        const std::size_t count = std::min(kBetweenPolls, points.size() - from);
         Task task{entity.source->path(), doing};
         task.entity = NamedEntity{kind, entity.tag};
         task.points = count;
