@@ -17,6 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "lacuna-cad";
+/// Limit on the number of folders between the root of an installation and a program or library in it;
+/// lib/<machine>/lua/5.4 has four.
+constexpr int kMostLevels = 4;
 
 /// Add the places of lacuna-cad that belong to a binary: its folder, and libexec/lacuna of its installation.
 void add_around(const fs::path& binary, std::vector<fs::path>& places)
@@ -25,7 +28,7 @@ void add_around(const fs::path& binary, std::vector<fs::path>& places)
     fs::path folder = fs::canonical(binary, error).parent_path();
     if (error) return;
     places.push_back(folder / kProgram);
-    while (folder.has_relative_path()) { // the root of an installation is one of the folders above
+    for (int level = 0; level < kMostLevels && folder.has_relative_path(); ++level) {
         folder = folder.parent_path();
         places.push_back(folder / "libexec" / "lacuna" / kProgram);
     }
