@@ -16,6 +16,10 @@ namespace lacuna::sweep {
 
 namespace {
 
+/// If the worst quad of the morphed mesh is below this share of the source's worst quad, other starting
+/// positions are tried. With every quad below 0.5, finely graded meshes lose their grading.
+constexpr double kStandsUp = 0.5;
+
 /// The graph of a mesh, and the factorisation of its Laplacian with the rim fixed.
 struct Spreader {
     NodeGraph graph;
@@ -202,14 +206,13 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
         // Start from the harmonic image, in which every inner node is the weighted mean of its neighbours.
         // There, raised parts of the source (pockets, bosses, steps) lie side by side. In an affine image
         // they would overlap.
-        const double poor = std::min(good_enough, kPoorQuad);
-        if (found.worst < poor && !columns.rim.empty())
+        if (found.worst < kStandsUp * good_enough && !columns.rim.empty())
             start_from(image_by([](const Vec3&) { return Vec3(Vec3::Zero()); }, source, columns, {}, spreader,
                                 context),
                        ", from its harmonic image");
         // Start from a membrane. With a flat start in a deep bowl above a flat rim, the closest points of the
         // surface would crowd at the rim.
-        if (found.worst < poor) {
+        if (found.worst < kStandsUp * good_enough) {
             const std::vector<Vec3> flat = start, bulge = membrane(source, columns, spreader);
             for (const double height : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0}) {
                 if (bulge.empty()) break;
