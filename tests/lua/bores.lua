@@ -342,4 +342,22 @@ for _, fins in ipairs { 2, 4, 5, 8 } do
   check.that(not tostring(mesh.report):find "were meshed differently", tostring(mesh.report))
 end
 
+-- --- a bore that another bore opens ------------------------------------------------------------------------
+
+-- The main bore alone: its wall continues over the mouth of the other bore, which rows cannot follow.
+for _, radius in ipairs { 6, 10, 14 } do
+  check.write(params.scratch .. "/crossed.geo", ([[
+    SetFactory("OpenCASCADE");
+    Box(1) = {-60, -30, -30, 120, 60, 60};
+    Cylinder(2) = {-61, 0, 0, 122, 0, 0, 20};
+    Cylinder(3) = {0, 0, 0, 0, 0, 61, %g};
+    BooleanDifference(4) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };
+  ]]):format(radius))
+  local model = lacuna.load(params.scratch .. "/crossed.geo")
+  local volume = model:open_volume { faces = model:face { near = { 0, 0, -20 } } }
+  local mesh = volume:sweep { size = 4 }
+  check.that(mesh:quality().certified)
+  check.near(mesh.fidelity.volume / (math.pi * 20 ^ 2 * 120), 1, 0.03)
+end
+
 check.done()

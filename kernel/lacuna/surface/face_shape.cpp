@@ -67,6 +67,20 @@ double FaceShape::volume_integral(const Vec3& origin) const
     return sum;
 }
 
+void FaceShape::append(const FaceShape& other)
+{
+    const auto first = static_cast<Index>(points.size());
+    const std::array<Vec3, 3> flat{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    if (!bulge.empty() || !other.bulge.empty()) {
+        bulge.resize(triangles.size(), flat);
+        bulge.insert(bulge.end(), other.bulge.begin(), other.bulge.end());
+        bulge.resize(triangles.size() + other.triangles.size(), flat);
+    }
+    points.insert(points.end(), other.points.begin(), other.points.end());
+    for (const Triangle& t : other.triangles) triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    slack = std::max(slack, other.slack);
+}
+
 FaceShape face_shape(const Model& model, FaceId face, const SizeField& size)
 {
     FineFacets fine = fine_facets(model, face, size, {.bulges = true});

@@ -6,11 +6,14 @@
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/surface/shared/face_shape.h>
+#include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/compare_face.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -51,6 +54,30 @@ FaceFidelity left_out(const Model& model, const Skin& skin, FaceId face, const D
     }
     result.allowed = limit.length > 0 ? limit.length : std::max(limit.share * result.side, limit.least);
     if (width > result.allowed) result.misfit = Misfit::no_quads;
+    return result;
+}
+
+/// Walls that continue over void faces. They are compared together with these faces.
+struct Continued {
+    std::map<FaceId, FaceId> wall;       ///< by void face
+    std::map<FaceId, SkinOfFace> joined; ///< by wall
+};
+
+/// @param shapes  by face; the shapes of void faces are appended to those of their walls
+Continued join_continued(const OpenVolume& volume, const Skin& skin, std::vector<surface::FaceShape>& shapes)
+{
+    Continued result;
+    for (const FaceId face : volume.faces(Role::wall)) {
+        const std::optional<FaceId> wall = surface::continued_wall(volume.model, face);
+        if (!wall) continue;
+        result.wall[face] = *wall;
+        SkinOfFace& all = result.joined.try_emplace(*wall, skin.faces[wall->index()]).first->second;
+        const SkinOfFace& more = skin.faces[face.index()];
+        all.quads.insert(all.quads.end(), more.quads.begin(), more.quads.end());
+        all.item.insert(all.item.end(), more.item.begin(), more.item.end());
+        all.side.insert(all.side.end(), more.side.begin(), more.side.end());
+        shapes[wall->index()].append(shapes[face.index()]);
+    }
     return result;
 }
 
@@ -131,14 +158,16 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
     }
     const double sign = result.sealed_volume < 0 ? -1 : 1;
     result.sealed_volume *= sign;
+    const Continued continued = join_continued(volume, skin, shapes);
     // Faces are compared in parallel, because the comparison of one large face uses only one thread in part.
     RunContext quiet;
     quiet.threads = context.threads;
     quiet.cancel = context.cancel;
     std::vector<FaceFidelity> compared(skin.faces.size());
     parallel_each(context, skin.faces.size(), 1, [&](std::size_t f) {
-        const SkinOfFace& patch = skin.faces[f];
-        if (patch.quads.empty()) return;
+        const auto joined = continued.joined.find(skin.faces[f].face);
+        const SkinOfFace& patch = joined == continued.joined.end() ? skin.faces[f] : joined->second;
+        if (patch.quads.empty() || continued.wall.contains(patch.face)) return;
         const DeviationLimit limit = limit_of(model, patch.face, options);
         compared[f].face = patch.face;
         compared[f].quads = patch.quads.size();
@@ -148,8 +177,14 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
     double area = 0;
     for (const SkinOfFace& patch : skin.faces) {
         FaceFidelity& face = compared[patch.face.index()];
-        if (patch.quads.empty())
+        const auto wall = continued.wall.find(patch.face);
+        if (wall != continued.wall.end()) {
+            face = compared[wall->second.index()];
+            face.misfit = Misfit::none; // reported for the wall
+            face.face = patch.face;
+        } else if (patch.quads.empty())
             face = left_out(model, skin, patch.face, limit_of(model, patch.face, options));
+        face.quads = patch.quads.size();
         if (order > 1) face.quads /= 4; // each quad was divided into four
         if (order > 1 && mesh != nullptr) face.side *= 2;
         face.entity = entity_of(model, patch.face);

@@ -26,6 +26,8 @@ struct FaceShape {
     [[nodiscard]] Vec3 normal(std::size_t triangle) const;
     /// Contribution of the face to the enclosed volume, measured from `origin` [model length³].
     [[nodiscard]] double volume_integral(const Vec3& origin) const;
+    /// Add the facets of another face.
+    void append(const FaceShape& other);
 };
 
 /// @param size  size of the mesh to compare with. A facet is bisected if it deviates from the exact face by
