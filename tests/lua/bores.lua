@@ -314,21 +314,23 @@ for number = 1, check.whole and 20 or 3 do
   check.near(mesh:quality().volume, 4 * 2 * 6 + 4 * 6 + top * (long - 4) / 2 + 33, 1e-9)
 end
 
--- The air in a stack of equal fins on a rod is cut at each fin. Its layers are joined at their ends, so all of them
--- get the quads of the first one.
+-- The air in a stack of equal fins on a rod is cut at each fin. Its layers are joined at their ends, so all of
+-- them get the quads of the first one.
+local outline = { "-20,-15", "-15,-20", "15,-20", "20,-15", "20,15", "15,20", "-15,20", "-20,15" }
 for _, fins in ipairs { 2, 4, 5, 8 } do
   local lines = { 'SetFactory("OpenCASCADE");', "Cylinder(1) = {0, 0, 0, 0, 0, 40, 8};" }
   for fin = 1, fins do
     local z = fin * 40 / (fins + 1)
-    for i, place in ipairs { "-20,-15", "-15,-20", "15,-20", "20,-15", "20,15", "15,20", "-15,20", "-20,15" } do
-      lines[#lines + 1] = ("Point(%d) = {%s,%g};"):format(100 * fin + i, place, z)
+    local first = 100 * fin
+    for i, place in ipairs(outline) do
+      lines[#lines + 1] = ("Point(%d) = {%s,%g};"):format(first + i, place, z)
     end
     for i = 1, 8 do
-      lines[#lines + 1] = ("Line(%d) = {%d, %d};"):format(100 * fin + i, 100 * fin + i, 100 * fin + i % 8 + 1)
+      lines[#lines + 1] = ("Line(%d) = {%d, %d};"):format(first + i, first + i, first + i % 8 + 1)
     end
-    lines[#lines + 1] = ("Curve Loop(%d) = {%d:%d}; Plane Surface(%d) = {%d};"):format(100 * fin, 100 * fin + 1,
-      100 * fin + 8, 100 * fin, 100 * fin)
-    lines[#lines + 1] = ("f%d() = Extrude {0, 0, 0.8} { Surface{%d}; };"):format(fin, 100 * fin)
+    lines[#lines + 1] = ("Curve Loop(%d) = {%d:%d}; Plane Surface(%d) = {%d};"):format(first, first + 1,
+      first + 8, first, first)
+    lines[#lines + 1] = ("f%d() = Extrude {0, 0, 0.8} { Surface{%d}; };"):format(fin, first)
     lines[#lines + 1] = ("all() += {f%d(1)};"):format(fin)
   end
   lines[#lines + 1] = "Box(99) = {-22, -22, 0, 44, 44, 40};"
