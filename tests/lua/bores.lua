@@ -314,8 +314,8 @@ for number = 1, check.whole and 20 or 3 do
   check.near(mesh:quality().volume, 4 * 2 * 6 + 4 * 6 + top * (long - 4) / 2 + 33, 1e-9)
 end
 
--- The air in a stack of equal fins on a rod is cut at each fin. Its layers are joined at their ends, so all of
--- them get the quads of the first one.
+-- The air in a stack of equal fins on a rod is cut at each fin. Its layers are joined at their ends, so all
+-- of them get the quads of the first one.
 local outline = { "-20,-15", "-15,-20", "15,-20", "20,-15", "20,15", "15,20", "-15,20", "-20,15" }
 for _, fins in ipairs { 2, 4, 5, 8 } do
   local lines = { 'SetFactory("OpenCASCADE");', "Cylinder(1) = {0, 0, 0, 0, 0, 40, 8};" }

@@ -479,8 +479,8 @@ BooleanDifference(7) = { Volume{5}; Delete; }{ Volume{6}; Delete; };
   end
 end
 
--- The wall of a bore is missing. Where the space lies inside it, as in an island, flat faces may be meant: that
--- it goes on between them is said. Round it, as in a solid, it is not.
+-- The wall of a bore is missing. Where the space lies inside it, as in an island, flat faces may be meant:
+-- that it goes on between them is said. Round it, as in a solid, it is not.
 local island = [[SetFactory("OpenCASCADE");
 Box(1) = {-10,-10,-10, 20,20,20}; Cylinder(2) = {-5,0,0, 10,0,0, 4}; Cylinder(3) = {-5,0,0, 10,0,0, %g};
 BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
