@@ -5,7 +5,6 @@
 #include <lacuna/cad/detail/void_patch.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/swept_surface.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -22,6 +21,10 @@ using namespace topology;
 using namespace cad_protocol;
 
 namespace {
+
+/// Limit on the interpolation points of a filled surface: for each inner loop, and for the facets. The cost
+/// grows with the cube of the number of points.
+constexpr std::size_t kLeadingPoints = 40;
 
 /// Precision of walls and edges that a known motion makes, relative to the diagonal. Their shapes are exact,
 /// so a smaller deviation makes sense: a spline of this precision through a circle encloses the circle's area
@@ -204,7 +207,7 @@ private:
         const std::vector<Loop> loops = outermost_first(model_, face.loops);
         std::set<Index> taken;
         const auto lead = [&](const std::vector<Index>& points) {
-            const std::size_t step = points.size() / kFineChords + 1;
+            const std::size_t step = points.size() / kLeadingPoints + 1;
             for (std::size_t i = 0; i < points.size(); i += step) made.leading.push_back(points[i]);
         };
         for (std::size_t l = 0; l < loops.size(); ++l) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/thin_plate.h>
 
-#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -15,6 +14,10 @@ namespace lacuna::closure {
 using namespace topology;
 
 namespace {
+
+/// Number of rim points that the plate interpolates: several per tooth of a rough rim. The cost grows with
+/// its cube.
+constexpr std::size_t kPlaces = 256;
 
 Eigen::RowVectorXd terms_at(const ThinPlate& plate, const Vec2& place)
 {
@@ -59,7 +62,7 @@ ThinPlate plate_over(const geometry::Plane& plane, const Model& model, const std
     std::vector<Vec3> rim;
     for (const Loop& loop : loops) {
         const std::vector<Vec3> along = geometry::even_places(use_places(model, loop.uses),
-                                                              kDegreesPerTurn / loops.size() + 1);
+                                                              kPlaces / loops.size() + 1);
         rim.insert(rim.end(), along.begin(), along.end() - 1);
     }
     return plate_through(plane, rim);
