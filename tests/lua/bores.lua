@@ -347,7 +347,7 @@ end
 -- --- a bore that another bore opens ------------------------------------------------------------------------
 
 -- The main bore alone: its wall continues over the mouth of the other bore, which rows cannot follow.
-for _, radius in ipairs { 6, 10, 14 } do
+for _, radius in ipairs { 6, 10, 14, 18 } do
   check.write(params.scratch .. "/crossed.geo", ([[
     SetFactory("OpenCASCADE");
     Box(1) = {-60, -30, -30, 120, 60, 60};
@@ -359,6 +359,7 @@ for _, radius in ipairs { 6, 10, 14 } do
   local volume = model:open_volume { faces = model:face { near = { 0, 0, -20 } } }
   local mesh = volume:sweep { size = 4 }
   check.that(mesh:quality().certified)
+  check.that(mesh:quality().min_scaled_jacobian > 0.8, mesh:quality().min_scaled_jacobian)
   check.near(mesh.fidelity.volume / (math.pi * 20 ^ 2 * 120), 1, 0.03)
 end
 

@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/matching/shared/corners.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -127,12 +128,15 @@ struct Rise {
 };
 using Rises = std::map<VertexId, std::vector<Rise>>;
 
-/// The edges of walls that belong to no end.
+/// The edges of walls that belong to no end and to no void face over which a wall continues.
 std::set<EdgeId> edges_between(const OpenVolume& volume)
 {
     std::set<EdgeId> between = edges_of(volume.model, volume.faces(Role::wall));
     for (const Role end : {Role::source, Role::target})
         for (const EdgeId edge : edges_of(volume.model, volume.faces(end))) between.erase(edge);
+    for (const FaceId face : volume.faces(Role::wall))
+        if (continued_wall(volume.model, face))
+            for (const EdgeUse& use : uses_of(volume.model[face])) between.erase(use.edge);
     return between;
 }
 
@@ -304,6 +308,23 @@ double climb(const Model& model, EdgeId edge, const std::vector<double>& heights
     const double rise = heights[static_cast<std::size_t>(points.back())] -
                         heights[static_cast<std::size_t>(points.front())];
     return most > 0 ? rise / most : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<FaceId> continued_wall(const Model& model, FaceId face)
+{
+    if (model[face].origin != Origin::made_void || model[face].loops.size() != 1) return std::nullopt;
+    const std::vector<EdgeUse>& rim = model[face].loops.front().uses;
+    std::set<FaceId> beside;
+    std::size_t corners = 0;
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        for (const FaceUse& user : model.uses_of_edge(rim[i].edge)) beside.insert(user.face);
+        corners += is_corner(model, rim, i) ? 1 : 0;
+    }
+    beside.erase(face);
+    if (corners == 4 || beside.size() != 1) return std::nullopt;
+    const Face& wall = model[*beside.begin()];
+    if (wall.origin == Origin::made_void || wall.keeps_nodes) return std::nullopt;
+    return *beside.begin();
 }
 
 std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& context)

@@ -3,6 +3,7 @@
 
 #include <lacuna/topology/open_volume.h>
 
+#include <optional>
 #include <vector>
 
 namespace lacuna::matching {
@@ -31,8 +32,12 @@ double climb(const topology::Model& model, EdgeId edge, const std::vector<double
 /// Gradient magnitude of the heights at each model point, for climb() [1 / model length].
 std::vector<double> height_gradient(const topology::OpenVolume& volume, const std::vector<double>& heights);
 
+/// The given wall that continues over a void face. The void face covers a hole of this wall, and the hole's
+/// rim is no rectangle, so that rows and columns cannot follow it. Empty: no wall continues.
+std::optional<FaceId> continued_wall(const topology::Model& model, FaceId face);
+
 /// The side lines of a volume's walls. Edges whose climb() is at most 0.5 are not used: they separate walls
-/// that are stacked on each other. Side lines share no vertices: if two lines would share one, the line of
+/// that are stacked on each other. Nor are the edges round a void face over which a wall continues. Side lines share no vertices: if two lines would share one, the line of
 /// lower cost (length divided by climb) is kept, and the other one takes another path.
 std::vector<SideLine> side_lines(const topology::OpenVolume& volume, const RunContext& context = {});
 

@@ -13,7 +13,6 @@
 #include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
-#include <lacuna/matching/shared/corners.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/shared/rim_breaks.h>
@@ -397,23 +396,6 @@ WallPosition LinkingMap::locate(double s, double t, std::size_t& near) const
     return {facets_.face[original], {facets_.number[original], hit.barycentric}};
 }
 
-std::optional<FaceId> continued_wall(const Model& model, FaceId face)
-{
-    if (model[face].origin != Origin::made_void || model[face].loops.size() != 1) return std::nullopt;
-    const std::vector<EdgeUse>& rim = model[face].loops.front().uses;
-    std::set<FaceId> beside;
-    std::size_t corners = 0;
-    for (std::size_t i = 0; i < rim.size(); ++i) {
-        for (const FaceUse& user : model.uses_of_edge(rim[i].edge)) beside.insert(user.face);
-        corners += matching::is_corner(model, rim, i) ? 1 : 0;
-    }
-    beside.erase(face);
-    if (corners == 4 || beside.size() != 1) return std::nullopt;
-    const Face& wall = model[*beside.begin()];
-    if (wall.origin == Origin::made_void || wall.keeps_nodes) return std::nullopt;
-    return *beside.begin();
-}
-
 std::vector<EdgeUse> edges_between(const Model& model, const LinkingSurface& link, bool void_edges)
 {
     std::set<EdgeId> taken;
@@ -428,8 +410,9 @@ std::vector<EdgeUse> edges_between(const Model& model, const LinkingSurface& lin
             if (!taken.insert(use.edge).second) continue;
             const std::span<const FaceUse> beside = model.uses_of_edge(use.edge);
             const bool seam = beside.size() == 2 && beside[0].face == beside[1].face;
-            const bool covered = std::ranges::any_of(
-                beside, [&](const FaceUse& user) { return continued_wall(model, user.face).has_value(); });
+            const bool covered = std::ranges::any_of(beside, [&](const FaceUse& user) {
+                return matching::continued_wall(model, user.face).has_value();
+            });
             if (!seam && !covered && (void_edges || !is_void(model, use.edge))) between.push_back(use);
         }
     }

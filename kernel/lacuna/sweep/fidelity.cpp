@@ -5,8 +5,8 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/parallel.h>
+#include <lacuna/matching/side_lines.h>
 #include <lacuna/surface/shared/face_shape.h>
-#include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/compare_face.h>
 #include <lacuna/sweep/detail/words.h>
 
@@ -68,7 +68,7 @@ Continued join_continued(const OpenVolume& volume, const Skin& skin, std::vector
 {
     Continued result;
     for (const FaceId face : volume.faces(Role::wall)) {
-        const std::optional<FaceId> wall = surface::continued_wall(volume.model, face);
+        const std::optional<FaceId> wall = matching::continued_wall(volume.model, face);
         if (!wall) continue;
         result.wall[face] = *wall;
         SkinOfFace& all = result.joined.try_emplace(*wall, skin.faces[wall->index()]).first->second;

@@ -90,8 +90,4 @@ std::vector<LinkingSurface> linking_surfaces(const topology::OpenVolume& volume,
 /// The linking surface of a face that is a tube (`is_tube()`), from its first loop to its second.
 LinkingSurface tube_link(const topology::OpenVolume& volume, FaceId face, const RunContext& context = {});
 
-/// The given wall that continues over a void face. The void face covers a hole of this wall, and the hole's
-/// rim is no rectangle, so that rows and columns cannot follow it. Empty: no wall continues.
-std::optional<FaceId> continued_wall(const topology::Model& model, FaceId face);
-
 } // namespace lacuna::surface
