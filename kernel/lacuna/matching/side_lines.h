@@ -37,8 +37,9 @@ std::vector<double> height_gradient(const topology::OpenVolume& volume, const st
 std::optional<FaceId> continued_wall(const topology::Model& model, FaceId face);
 
 /// The side lines of a volume's walls. Edges whose climb() is at most 0.5 are not used: they separate walls
-/// that are stacked on each other. Nor are the edges round a void face over which a wall continues. Side lines share no vertices: if two lines would share one, the line of
-/// lower cost (length divided by climb) is kept, and the other one takes another path.
+/// that are stacked on each other. Nor are the edges round a void face over which a wall continues. Side
+/// lines share no vertices: if two lines would share one, the line of lower cost (length divided by climb) is
+/// kept, and the other one takes another path.
 std::vector<SideLine> side_lines(const topology::OpenVolume& volume, const RunContext& context = {});
 
 } // namespace lacuna::matching
