@@ -8,6 +8,7 @@
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace lacuna::quads::paving {
@@ -42,16 +43,27 @@ public:
     /// Try these meshes in turn until one is good:
     /// 1. grids;
     /// 2. for many quads: the quads of a coarser region, each cut in four;
-    /// 3. for few quads: paving without rows and with rows, with weights for few quads;
+    /// 3. for few quads: paving without rows, with the weights for few quads; and paving with rows, with the
+    ///    first weights of `cut_weight_rows()`;
     /// 4. unless step 3 gave a good mesh: paving with rows and the default weights;
-    /// 5. if step 4 failed, or the region is small: paving without rows.
+    /// 5. if step 4 failed, or the region is small and the mesh not good enough: paving without rows.
     void try_default_weights();
+    /// The score of a row style with other cut weights. The attempt is not kept.
+    [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
+    /// Try the weights of `cut_weight_rows()` as long as the region is small and the score can still improve.
+    /// With few quads, or if the outline sets most irregular nodes, do so only if the best mesh is poor.
+    void try_all_weights();
     /// Try triangles if no other method fills the region well.
     void try_triangles();
 
+    [[nodiscard]] const Attempt& best() const { return best_; }
     [[nodiscard]] Attempt take_best() { return std::move(best_); }
+    /// Score of the best attempt, see `score_of()`; -2 if there is no attempt yet.
+    [[nodiscard]] double score() const { return best_score_; }
     /// A quad counts as folded if the sine of a corner is smaller than this [-].
     [[nodiscard]] double flat() const { return setting_.flat; }
+    /// Whether no further attempt is needed.
+    [[nodiscard]] bool is_done() const { return is_good_grid_; }
 
 private:
     void consider(Attempt made);
@@ -81,21 +93,38 @@ private:
     void finish(Attempt begun);
     void pave_in(RowStyle style);
     [[nodiscard]] Attempt begin(RowStyle style, const CutWeights& weights = {}) const;
+    /// Finish an attempt in place.
+    void complete(Attempt& attempt) const;
+    struct Judged {
+        double score;
+        PlaneQuality quality; ///< not measured if quads count as folded
+    };
+    /// The score of an attempt. If its mesh has a fault, `made.worst` is set to -1.
+    Judged judge_score(Attempt& made) const;
     [[nodiscard]] bool is_small() const;
+    [[nodiscard]] bool is_good_enough() const;
 
     const PlanarRegion& region_;
     PlanarRegion judged_; ///< the region with the size that its given sides permit
     bool grids_;          ///< whether one grid may fill the region
     const RunContext& context_;
     bool cut_;
-    bool is_few_;     ///< whether there are few quads, by estimate
-    bool few_graded_; ///< whether there are so few quads that the given sides determine their sizes
+    int least_irregular_; ///< least number of irregular nodes that topology permits
+    bool is_few_;         ///< whether there are few quads, by estimate
+    bool few_graded_;     ///< whether there are so few quads that the given sides determine their sizes
     AttemptSetting setting_;
     Attempt best_;
-    double best_score_ = -2;              ///< see `score_of()`; -2 if there is no attempt yet
+    double best_score_ = -2;
     std::vector<std::uint64_t> finished_; ///< hashes of the attempts before they were finished
     bool is_good_grid_ = false;
+    bool is_near_least_ = false; ///< whether the best attempt has nearly the least number of irregular nodes
+    /// Whether the best attempt has few irregular nodes beside those that topology demands, as between many
+    /// holes. Other cuts then only move them.
+    bool is_set_by_outline_ = false;
 };
+
+/// The sets of weights with which small regions are also cut, in the order of trial.
+std::span<const CutWeights> cut_weight_rows();
 
 /// A quad counts as folded if the smallest sine of its corners is below this value, because a sweep cannot
 /// use a flatter quad. The value is lower if given corners are so sharp.
