@@ -22,7 +22,7 @@ struct SearchLimits {
     std::size_t growths;  ///< maximum number of irregular points to which a patch is grown
     std::size_t largest;  ///< maximum number of quads in a patch
     std::size_t fillings; ///< maximum number of fillings that are tried for each patch
-    int sweeps;           ///< smoothing sweeps over a filling before its first test (`Trial::run()`)
+    int sweeps;           ///< smoothing sweeps over a filling before its second test (`Trial::run()`)
     double hopeless; ///< a filling is rejected early if its loss exceeds this multiple of the allowed loss
 };
 /// Stages of the search. Small patches come first, because they are cheap and remove most irregular points.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/coarse_region.h>
 
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/region_loops.h>
 
@@ -9,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -140,7 +140,8 @@ bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size
 {
     // If the loop turns by more than 20° at a node, the node stays, so that round holes keep at least nine
     // nodes. With a larger angle, more regions could be coarsened, but corners would be rounded off.
-    return -std::cos(corner_angle(region.points, loop, place)) < kOneCurve;
+    constexpr double kTurnsLeftOut = std::numbers::pi / 9;
+    return std::abs(corner_angle(region.points, loop, place) - std::numbers::pi) > kTurnsLeftOut;
 }
 
 std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop)

@@ -63,12 +63,6 @@ double cost_of_sides(double wanted, int sides)
     return sides > 0 ? off * off / sides : kInfinity;
 }
 
-double cost_of_quads(double quads, double asked)
-{
-    const double off = std::sqrt(std::max(quads, 0.0)) - std::sqrt(asked);
-    return off * off;
-}
-
 CountTask::CountTask(const PlanarRegion& of, std::span<const int> segment_of_side,
                      std::span<const BoundarySegment> all, const RunContext& run)
     : region(of), segment(segment_of_side), segments(all), context(run), own(all.size(), 0)

@@ -3,25 +3,22 @@
 
 #include <lacuna/geometry/shared/predicates.h>
 
-#include <cmath>
-
 namespace lacuna::quads::paving {
 
 namespace {
 
 using geometry::orient2d;
 
+constexpr std::size_t kRun = 16; ///< number of sides in a box
+
 } // namespace
 
-LoopSides::LoopSides(const PartialMesh& partial, const Cycle& loop)
-    : partial_(partial),
-      loop_(loop),
-      run_(static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(loop.size())))))
+LoopSides::LoopSides(const PartialMesh& partial, const Cycle& loop) : partial_(partial), loop_(loop)
 {
     const std::size_t n = loop.size();
-    for (std::size_t first = 0; first < n; first += run_) {
+    for (std::size_t first = 0; first < n; first += kRun) {
         Eigen::AlignedBox2d& run = runs_.emplace_back();
-        for (std::size_t k = first; k <= std::min(first + run_, n); ++k) run.extend(partial.at(loop[k % n]));
+        for (std::size_t k = first; k <= std::min(first + kRun, n); ++k) run.extend(partial.at(loop[k % n]));
         whole_.extend(run);
     }
 }
@@ -42,7 +39,7 @@ bool LoopSides::is_clear(Index a, Index b) const
     const std::size_t n = loop_.size();
     for (std::size_t r = 0; r < runs_.size(); ++r) {
         if (!runs_[r].intersects(line)) continue;
-        for (std::size_t k = r * run_; k < std::min((r + 1) * run_, n); ++k)
+        for (std::size_t k = r * kRun; k < std::min((r + 1) * kRun, n); ++k)
             if (!passes(a, b, loop_[k], loop_[k + 1 == n ? 0 : k + 1])) return false;
     }
     return true;

@@ -3,7 +3,6 @@
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/quads/detail/plane_energy.h>
@@ -210,8 +209,8 @@ private:
         const double reach = shortest_side(points_, star, points_[p]);
         double sum = 0;
         for (const Spoke& spoke : star) sum += (points_[index(spoke.next)] - points_[p]).norm();
-        const double shortest = std::max(least_side_[p],
-                                         std::min(reach, kOnePoint * sum / static_cast<double>(star.size())));
+        const double shortest = std::max(
+            least_side_[p], std::min(reach, kShortestKept * sum / static_cast<double>(star.size())));
         const double before = least_sine(points_, star, points_[p]);
         std::size_t first = 0;
         const auto sine_at = [&](const Vec2& to, double floor) {

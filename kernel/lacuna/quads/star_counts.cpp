@@ -81,7 +81,7 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
                 quads += foot[i] * foot[(i + 1) % n];
             }
             if (!is_allowed || !are_alike(counts.sides, pairs)) continue;
-            counts.cost += cost_of_quads(quads, asked);
+            counts.cost += kWeightOfQuads * (quads - asked) * (quads - asked) / asked;
             if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOffAsked;
             if (counts.cost < (best ? best->cost : kInfinity)) best = std::move(counts);
         }

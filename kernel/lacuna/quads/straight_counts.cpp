@@ -237,7 +237,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             add_grids(task, *headed, rows, *closed);
             const bool has_grids = closed->grids.size() == closed->loops.size();
             const double quads = has_grids ? closed->quads : asked; // unknown if a loop has no grid
-            counts.cost += cost_of_quads(quads, asked) + of_part;
+            counts.cost += kWeightOfQuads * (quads - asked) * (quads - asked) / asked + of_part;
             const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
             if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOff;
             // Check that the grid has room for the holes. A grid with few lines may not have room. With many
@@ -317,8 +317,8 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
 
 std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
 {
-    // The cost of solutions with soft turns at ends of 135° is divided by this number, chosen on 40 outlines
-    // of the family that `--held` draws (benchmarks/pave/).
+    // The cost of solutions with soft turns at ends of 135° is divided by this number, which was chosen like
+    // `kWeightOfQuads`.
     constexpr double kSoft = 2;
     std::vector<Counts> all = counts_looked_at(task, options, TurnStyle::soft);
     const auto add = [&](TurnStyle style) {

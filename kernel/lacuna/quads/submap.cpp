@@ -60,7 +60,16 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     PlanarQuads mesh{region.points, {}, four_sided ? "mapped" : "submapped"};
     grid.add_cells(mesh);
     const auto size = paving::sizes_with_boundary(region).usual;
-    smooth_plane(mesh.points, mesh.quads, fixed, {.size = size}, context);
+    smooth_plane(mesh.points, mesh.quads, fixed, {.size = size, .repairs = 0}, context);
+    // Poor quads are improved one by one only if their share of all quads is at most this. A grid that is
+    // poor everywhere would not become good.
+    constexpr double kFewPoor = 0.1;
+    const SmoothPlaneOptions repairs{.size = size, .sweeps = 0, .untangle = false};
+    const auto poor = std::ranges::count_if(mesh.quads, [&](const Quad& quad) {
+        return scaled_jacobian(mesh.points, quad) < repairs.good_enough;
+    });
+    if (static_cast<double>(poor) <= kFewPoor * static_cast<double>(mesh.quads.size()))
+        smooth_plane(mesh.points, mesh.quads, fixed, repairs, context);
     if (!find_fault(mesh, region).empty()) return std::nullopt;
     return mesh;
 }

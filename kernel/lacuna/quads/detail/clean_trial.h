@@ -32,14 +32,16 @@ public:
 
     /// Put a filling into the mesh in place of the patch, if the filling is good.
     ///
-    /// The filling is tested twice: after some smoothing sweeps over its own points, and after it is smoothed
-    /// together with its surroundings.
+    /// The filling is tested three times: before smoothing, after some smoothing sweeps over its own points,
+    /// and after it is smoothed together with its surroundings.
     /// @param sweeps    number of smoothing sweeps
-    /// @param hopeless  the first test rejects a filling whose loss exceeds this multiple of the allowed loss
+    /// @param hopeless  the first two tests reject a filling whose loss exceeds this multiple of the allowed
+    ///                  loss
     Verdict run(const TemplateMesh& filling, int sweeps, double hopeless);
 
 private:
     bool settles(const TemplateMesh& filling, int sweeps, double most);
+    bool exceeds(std::size_t filled, double most) const;
     void number_points();
     bool fits(const TemplateMesh& filling, double allowed);
     void put_in(const TemplateMesh& filling);

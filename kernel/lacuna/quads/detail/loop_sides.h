@@ -27,7 +27,6 @@ private:
     const PartialMesh& partial_;
     const Cycle& loop_;
     Eigen::AlignedBox2d whole_;
-    std::size_t run_; ///< number of sides in a box: the root of their number makes a search shortest
     std::vector<Eigen::AlignedBox2d> runs_;
 };
 

@@ -4,7 +4,6 @@
 /// The quads around each point of a mesh with fixed connections; for connections that change see `QuadNet`.
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/types.h>
 #include <lacuna/quads/detail/corner_sine.h>
 
@@ -81,14 +80,19 @@ inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke>
     return std::sqrt(squared);
 }
 
-/// For each point, the length that its shortest side must keep if the point is moved to improve its worst
-/// sine: a share of `kOnePoint` of its initial length. Sines do not depend on lengths: a very thin rectangle
-/// has the same sines as a square. 0 for the first `fixed` points and for points without quads.
+/// If a point is moved to improve its worst sine, its shortest side keeps at least this share of its initial
+/// length. Sines do not depend on lengths: a very thin rectangle has the same sines as a square. Without this
+/// limit, sides shrank to a millionth of the length of their neighbours. A higher value prevents more
+/// improvements; a lower value allows shorter edges.
+inline constexpr double kShortestKept = 0.25;
+
+/// For each point, the length that its shortest side must keep (`kShortestKept`). 0 for the first `fixed`
+/// points and for points without quads.
 inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Stars& stars, std::size_t fixed)
 {
     std::vector<double> least(points.size(), 0);
     for (std::size_t p = fixed; p < points.size(); ++p)
-        if (!stars[p].empty()) least[p] = kOnePoint * shortest_side(points, stars[p], points[p]);
+        if (!stars[p].empty()) least[p] = kShortestKept * shortest_side(points, stars[p], points[p]);
     return least;
 }
 

@@ -31,7 +31,7 @@ struct SmoothPlaneOptions {
 ///    the sum of ((|a|² + |b|²) / (2 det))² and, with a requested size h, of (det/h² + h²/det) / 2 times
 ///    `size_weight`. No step may fold a quad.
 /// 3. The points of the worst quads are moved, one after the other, to the position with the largest minimum
-///    sine of the corners around them. Each point's shortest side keeps at least `kOnePoint` of its
+///    sine of the corners around them. Each point's shortest side keeps at least `kShortestKept` of its
 ///    length.
 /// @post  the least scaled Jacobian is not smaller than before.
 /// @throw Cancelled

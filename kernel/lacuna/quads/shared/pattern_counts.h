@@ -56,7 +56,7 @@ inline constexpr double kFewestEven = 8;
 /// wanted numbers are rounded.
 ///
 /// For a straight grid the sum has three more terms:
-/// - (√quads − √requested)², because rows along round turns add quads. A round (soft)
+/// - a quarter of (quads − requested)² / requested, because rows along round turns add quads. A round (soft)
 ///   turn is one where the grid turns behind some rows of quads, see `PatternLoop`;
 /// - for each round turn, ln²(rows / fitting rows), times half the number of fitting rows if there are more
 ///   than two. The fitting rows fill about a third of the radius of the widest turn (`fitting_rows()`);
