@@ -360,6 +360,7 @@ for _, radius in ipairs { 6, 10, 14, 18 } do
   local mesh = volume:sweep { size = 4 }
   check.that(mesh:quality().certified)
   check.that(mesh:quality().min_scaled_jacobian > 0.8, mesh:quality().min_scaled_jacobian)
+  check.that(tostring(mesh.report):find "continues over void face", tostring(mesh.report))
   check.near(mesh.fidelity.volume / (math.pi * 20 ^ 2 * 120), 1, 0.03)
 end
 

@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/progress.h>
+#include <lacuna/matching/side_lines.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/shared/default_size.h>
 #include <lacuna/surface/shared/intervals.h>
@@ -274,6 +275,11 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
         swept.notes.push_back(poor_in_words(swept.min_scaled_jacobian));
     if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted)
         swept.notes.push_back(volume_in_words(swept, volume, options));
+    for (const FaceId face : volume.faces(Role::wall))
+        if (const auto wall = matching::continued_wall(volume.model, face))
+            swept.notes.push_back(
+                formatted("{} continues over {}: the border of their groups follows the quads, not the rim",
+                          entity_of(volume.model, *wall), entity_of(volume.model, face)));
     for (const std::string& note : swept.notes) swept.report.push_back("note: " + note);
     if (asked.beside.settle) return swept;
     for (const std::string& line : swept.defaults) log_line(context, line);
