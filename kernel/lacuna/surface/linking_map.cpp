@@ -404,16 +404,17 @@ std::vector<EdgeUse> edges_between(const Model& model, const LinkingSurface& lin
     for (const LinkingLine& line : link.lines) {
         for (const EdgeUse& use : line.line.uses) taken.insert(use.edge);
     }
+    for (const FaceId wall : link.walls) {
+        if (!matching::continued_wall(model, wall)) continue;
+        for (const EdgeUse& use : uses_of(model[wall])) taken.insert(use.edge);
+    }
     std::vector<EdgeUse> between;
     for (const FaceId wall : link.walls) {
         for (const EdgeUse& use : uses_of(model[wall])) {
             if (!taken.insert(use.edge).second) continue;
             const std::span<const FaceUse> beside = model.uses_of_edge(use.edge);
             const bool seam = beside.size() == 2 && beside[0].face == beside[1].face;
-            const bool covered = std::ranges::any_of(beside, [&](const FaceUse& user) {
-                return matching::continued_wall(model, user.face).has_value();
-            });
-            if (!seam && !covered && (void_edges || !is_void(model, use.edge))) between.push_back(use);
+            if (!seam && (void_edges || !is_void(model, use.edge))) between.push_back(use);
         }
     }
     return between;

@@ -169,21 +169,19 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
         const SkinOfFace& patch = joined == continued.joined.end() ? skin.faces[f] : joined->second;
         if (patch.quads.empty() || continued.wall.contains(patch.face)) return;
         const DeviationLimit limit = limit_of(model, patch.face, options);
-        compared[f].face = patch.face;
-        compared[f].quads = patch.quads.size();
         if (!kept.contains(patch.face))
             compared[f] = compare_face(mesh, skin, patch, std::move(shapes[f]), sign, limit, quiet);
     });
+    for (const auto& [covered, wall] : continued.wall) {
+        compared[covered.index()] = compared[wall.index()];
+        compared[covered.index()].misfit = Misfit::none; // reported for the wall
+    }
     double area = 0;
     for (const SkinOfFace& patch : skin.faces) {
         FaceFidelity& face = compared[patch.face.index()];
-        const auto wall = continued.wall.find(patch.face);
-        if (wall != continued.wall.end()) {
-            face = compared[wall->second.index()];
-            face.misfit = Misfit::none; // reported for the wall
-            face.face = patch.face;
-        } else if (patch.quads.empty())
+        if (patch.quads.empty() && !continued.wall.contains(patch.face))
             face = left_out(model, skin, patch.face, limit_of(model, patch.face, options));
+        face.face = patch.face;
         face.quads = patch.quads.size();
         if (order > 1) face.quads /= 4; // each quad was divided into four
         if (order > 1 && mesh != nullptr) face.side *= 2;

@@ -58,8 +58,7 @@ inline constexpr double kBendBelow = 75;
 // Flat
 
 /// Sine of about one degree. Directions count as parallel, and a line counts as straight, if their angle or
-/// its turn is smaller; a tetrahedron whose scaled Jacobian is smaller is a sliver, and a note says so. For
-/// comparison: facets in files deviate by tenths of a degree.
+/// its turn is smaller. For comparison: facets in files deviate by tenths of a degree.
 inline constexpr double kParallel = 0.02;
 
 /// A face is flat if the length of its summed area vector is more than (1 - kFlatShare) times its area. Two
