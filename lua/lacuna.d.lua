@@ -244,6 +244,11 @@
 ---@field legend? boolean show a title and a key to the colours; default true
 ---@field title? string default: the name of the mesh, its numbers of nodes and cells
 
+--- Options of a picture of a file. `facets` is for faces; `colour`, `cut`, `layers` and `edges` for cells.
+---@class lacuna.FileOptions: lacuna.PictureOptions
+---@field facets? boolean draw the edges of the facets; default false
+---@field show? "auto"|"faces"|"cells" default "auto": the cells of a mesh that has solids, otherwise the faces
+
 ---@class lacuna.Classification
 ---@field class lacuna.Class
 ---@field free_loops integer number of closed loops of free edges
@@ -857,5 +862,11 @@ function lacuna.convert(from, to, options) end
 ---@param options? lacuna.ViewOptions
 ---@return "cells"|"faces"
 function lacuna.view(file, path, options) end
+--- Draw a file: the cells of a mesh or deck with solid elements, otherwise the faces. No display is needed.
+---@param file string in any format that can be read
+---@param path string .png
+---@param options? lacuna.FileOptions
+---@return "cells"|"faces"
+function lacuna.picture(file, path, options) end
 
 return lacuna

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pages: model:view(path), volume:view(path), mesh:view(path), lacuna.view(file, path).
-// Pictures: picture(path) of the same three.
+// Pictures: picture(path) of the same three, lacuna.picture(file, path).
 #include "bindings/classes.h"
 #include "bindings/faces.h"
 #include "bindings/io_paths.h"
@@ -116,7 +116,7 @@ const Word<Direction> kDirections[] = {
     {"right", {1, 0, 0}},    {"top", {0, 0, 1}},    {"bottom", {0, 0, -1}},
 };
 
-void read_direction(lua_State* L, int index, const Where& where, view::PictureOptions& options)
+void read_direction(lua_State* L, int index, const Where& where, auto& options)
 {
     if (lua_type(L, index) == LUA_TTABLE) {
         options.direction = read_vector(L, index, where);
@@ -126,13 +126,13 @@ void read_direction(lua_State* L, int index, const Where& where, view::PictureOp
     options.direction = {x, y, z};
 }
 
-void read_cut(lua_State* L, int index, const Where& where, view::PictureOptions& options)
+void read_cut(lua_State* L, int index, const Where& where, auto& options)
 {
     const auto [point, normal] = read_point_and_normal(L, index, where);
     options.cut = {point, normal};
 }
 
-void read_shown_layers(lua_State* L, int index, const Where& where, view::PictureOptions& options)
+void read_shown_layers(lua_State* L, int index, const Where& where, auto& options)
 {
     if (array_length(L, index) != 2)
         fail_value(L, where, "an array of two numbers of layers, from and to", index);
@@ -186,13 +186,28 @@ int picture(lua_State* L)
 enum class Show { automatic, faces, cells };
 const Word<Show> kShows[] = {{"auto", Show::automatic}, {"faces", Show::faces}, {"cells", Show::cells}};
 
-struct ViewFile {
-    view::PageOptions page;
+template <class Options>
+struct OfFile : Options {
     Show show = Show::automatic;
 };
+using PageOfFile = OfFile<view::PageOptions>;
+using PictureOfFile = OfFile<view::PictureOptions>;
 
-const Option<ViewFile> kFileOptions[] = {{"title", text<&ViewFile::page, &view::PageOptions::title>},
-                                         {"show", word<&ViewFile::show, kShows>}};
+const Option<PageOfFile> kFilePageOptions[] = {{"title", text<&PageOfFile::title>},
+                                               {"show", word<&PageOfFile::show, kShows>}};
+const Option<PictureOfFile> kFilePictureOptions[] = {
+    {"width", count<&PictureOfFile::width>},
+    {"height", count<&PictureOfFile::height>},
+    {"view", read_direction},
+    {"facets", boolean<&PictureOfFile::facets>},
+    {"colour", word<&PictureOfFile::colour, kColours>},
+    {"cut", read_cut},
+    {"layers", read_shown_layers},
+    {"edges", boolean<&PictureOfFile::edges>},
+    {"legend", boolean<&PictureOfFile::legend>},
+    {"title", text<&PictureOfFile::title>},
+    {"show", word<&PictureOfFile::show, kShows>},
+};
 
 bool is_deck(const std::string& file)
 {
@@ -200,32 +215,65 @@ bool is_deck(const std::string& file)
     return format != nullptr && format->is_read && format->is_mesh;
 }
 
-/// @return  true if the page shows cells, false if it shows faces
-bool view_file(const std::string& file, const io::OutputPath& path, ViewFile& options,
+void draw(const io::Deck& deck, const io::OutputPath& path, const view::PageOptions& options,
+          const std::string& /*file*/, const RunContext& context)
+{
+    view::write_page(deck, path, options, context);
+}
+void draw(const topology::Model& model, const io::OutputPath& path, view::PageOptions& options,
+          const std::string& file, const RunContext& context)
+{
+    options.path = file;
+    view::write_page(model, path, options, context);
+}
+void draw(const io::Deck& deck, const io::OutputPath& path, const view::PictureOptions& options,
+          const std::string& file, const RunContext& context)
+{
+    if (options.facets)
+        throw InvalidInput("view.not_drawn",
+                           "picture: {} is drawn as cells; leave out 'facets', or add "
+                           "show = \"faces\"",
+                           file);
+    view::write_picture(deck, path, options, context);
+}
+void draw(const topology::Model& model, const io::OutputPath& path, const view::PictureOptions& options,
+          const std::string& file, const RunContext& context)
+{
+    if (options.cut || options.layers || !options.edges || options.colour != view::ColourBy::quality)
+        throw InvalidInput("view.not_drawn",
+                           "picture: {} is drawn as faces, which have no cells; leave out "
+                           "'colour', 'cut', 'layers' and 'edges'",
+                           file);
+    view::write_picture(model, path, options, context);
+}
+
+/// @return  true if cells are drawn, false if faces are
+template <class Options>
+bool draw_file(const std::string& file, const io::OutputPath& path, Options& options,
                const cad::Limits& limits, const RunContext& context)
 {
-    if (options.page.title.empty()) options.page.title = file.substr(file.rfind('/') + 1);
+    if (options.title.empty()) options.title = file.substr(file.rfind('/') + 1);
     if (options.show == Show::cells || (options.show == Show::automatic && is_deck(file))) {
         const io::Deck deck = io::read_deck(file, context);
         // A deck with solid elements is shown as a mesh, whatever its format.
         if (options.show == Show::cells || deck.element_count(3) > 0) {
-            view::write_page(deck, path, options.page, context);
+            draw(deck, path, options, file, context);
             return true;
         }
     }
-    options.page.path = file;
-    view::write_page(cad::load_files({file}, {}, context, limits).model, path, options.page, context);
+    draw(cad::load_files({file}, {}, context, limits).model, path, options, file, context);
     return false;
 }
 
-/// "cells" or "faces" = lacuna.view(file, path [, options])
-int view(lua_State* L)
+/// "cells" or "faces" = call(file, path [, options])
+template <class Options>
+int file_drawn(lua_State* L, const char* call, const char* ending, const auto& table)
 {
     lua_settop(L, 3);
-    const char* file = read_string(L, 1, {"view", nullptr});
-    const io::OutputPath& path = push_path(L, 2, "view", ".html");
-    auto& options = temporary<ViewFile>(L);
-    read_options(L, 3, "view", kFileOptions, options);
+    const char* file = read_string(L, 1, {call, nullptr});
+    const io::OutputPath& path = push_path(L, 2, call, ending);
+    auto& options = temporary<Options>(L);
+    read_options(L, 3, call, table, options);
     const Host& lent = host(L);
     cad::Limits limits{};
     limits.may_raise = !lent.sandboxed;
@@ -233,10 +281,18 @@ int view(lua_State* L)
     bool cells = false;
     guard(L, [&] {
         check_input_path(lent, file);
-        cells = view_file(file, path, options, limits, context);
+        cells = draw_file(file, path, options, limits, context);
     });
     lua_pushstring(L, cells ? "cells" : "faces");
     return 1;
+}
+
+/// lacuna.view
+int view(lua_State* L) { return file_drawn<PageOfFile>(L, "view", ".html", kFilePageOptions); }
+/// lacuna.picture
+int picture_of_file(lua_State* L)
+{
+    return file_drawn<PictureOfFile>(L, "picture", ".png", kFilePictureOptions);
 }
 
 template <class State, const auto& Pictures>
@@ -249,7 +305,7 @@ void add_views(lua_State* L)
 
 void bind_view(lua_State* L)
 {
-    set_functions(L, {{"view", view}});
+    set_functions(L, {{"view", view}, {"picture", picture_of_file}});
     add_views<ModelState, kFacePictureOptions>(L);
     add_views<VolumeState, kFacePictureOptions>(L);
     add_views<MeshState, kPictureOptions>(L);

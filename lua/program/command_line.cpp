@@ -77,6 +77,15 @@ other file as faces, which can be selected and copied as roles.
 
   --faces  show the faces of a mesh or deck, to fill its voids
 )"},
+    {"picture", "FILE OUT", 2, nullptr, true, "draw a file's cells or faces, as a PNG file",
+     R"(
+Draws any file that can be read, without a display: the cells of a mesh or deck with solid elements, otherwise
+the faces. The words are the options of lacuna.picture:
+
+  lacuna picture foam.msh foam.png view=top width=800 height=600
+  lacuna picture foam.msh half.png colour=groups 'cut={ { 0, 0, 5 }, { 0, 0, 1 } }'
+  lacuna picture old.inp faces.png show=faces
+)"},
     {"check", "FILE", 1, "--json", false, "check a mesh; exit code 1 if a cell is invalid",
      R"(
 Reads the solids of a mesh: %MESHES.

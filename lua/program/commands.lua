@@ -104,7 +104,7 @@ function commands.convert()
   print(("%s: %d nodes, %d elements"):format(second, found.nodes, found.elements))
 end
 
--- --- fill --------------------------------------------------------------------------------------------------
+-- --- picture and fill --------------------------------------------------------------------------------------
 
 local function words(text)
   local set = {}
@@ -141,24 +141,37 @@ local function value_of(key, text)
   return list
 end
 
-function commands.fill(...)
-  local options = { load = {}, open_volume = {}, sweep = {}, write = {} }
-  local files = { first, second }
-  for _, word in ipairs { ... } do
+-- Put key=value words into the tables that `table_of` names, and other words into `files`.
+local function options_of(list, files, table_of)
+  for _, word in ipairs(list) do
     local key, text = word:match "^([%a_][%w_]*)=(.*)$"
     if not key then
       files[#files + 1] = word
     else
-      local call = options[call_of(key)]
-      local list, value = call[key], value_of(key, text)
+      local call = table_of(key)
+      local before, value = call[key], value_of(key, text)
       -- A shell makes two words of faces={3,4}: faces=3 faces=4.
-      if list ~= nil then
-        if type(list) ~= "table" then list = { list } end
-        list[#list + 1], value = value, list
+      if before ~= nil then
+        if type(before) ~= "table" then before = { before } end
+        before[#before + 1], value = value, before
       end
       call[key] = value
     end
   end
+end
+
+function commands.picture(...)
+  local files, options = {}, {}
+  options_of({ ... }, files, function() return options end)
+  if files[1] then error(("picture draws one file, but %s is one more"):format(files[1]), 0) end
+  local shown = lacuna.picture(first, second, options)
+  print(("wrote %s: the %s of %s"):format(second, shown, first))
+end
+
+function commands.fill(...)
+  local options = { load = {}, open_volume = {}, sweep = {}, write = {} }
+  local files = { first, second }
+  options_of({ ... }, files, function(key) return options[call_of(key)] end)
   local output = table.remove(files)
   local model = lacuna.load(files, options.load)
   if options.write.with == true then options.write.with = model end

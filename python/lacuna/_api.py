@@ -8,7 +8,7 @@ __all__ = [
         "Contact", "ModelInfo", "FaceInfo", "Cavity", "Classification", "Match", "Closure", "FreeEdge",
         "LeftOut", "Fidelity", "FaceFidelity", "AssemblyFidelity", "WorstCell", "MetricSummary", "Model",
         "Face", "Volume", "Mesh", "Assembly", "AssemblyMesh", "QuadMesh", "Quality", "load", "model",
-        "assembly", "split_interface", "check", "convert", "view",
+        "assembly", "split_interface", "check", "convert", "view", "picture",
 ]
 
 
@@ -1455,6 +1455,30 @@ def view(file, path, options=None, /, **keywords):
         the faces
     """
     return call("module", "view", file, path, options_of(options, keywords))
+
+
+def picture(file, path, options=None, /, **keywords):
+    """Draw a file: the cells of a mesh or deck with solid elements, otherwise the faces. No display is
+    needed.
+
+    file: in any format that can be read
+    path: .png
+    width: int; default 1200 [pixels]
+    height: int; default 900 [pixels]
+    view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; direction from the
+        object to the viewer; default "iso"
+    colour: "quality" | "layer" | "groups" | "region" | "origin"; what the colours of cells show; default
+        "quality"
+    cut: list[(x, y, z)] | dict; point and normal, also as keys of these names: only cells whose centre lies
+        behind this plane are shown
+    layers: list[int]; first and last layer that is shown; default all
+    edges: bool; draw the edges of the cells; default True
+    legend: bool; show a title and a key to the colours; default True
+    title: str; default: the name of the mesh, its numbers of nodes and cells
+    facets: bool; draw the edges of the facets; default False
+    show: "auto" | "faces" | "cells"; default "auto": the cells of a mesh that has solids, otherwise the faces
+    """
+    return call("module", "picture", file, path, options_of(options, keywords))
 
 
 classes.update(Contact=Contact, ModelInfo=ModelInfo, FaceInfo=FaceInfo, Cavity=Cavity,

@@ -543,3 +543,12 @@ def view(
         file: Path, path: Path, options: Mapping[str, Any] | None = None, /, *, title: str | None = ...,
         show: Literal["auto", "faces", "cells"] | None = ...,
 ) -> Literal["cells", "faces"]: ...
+def picture(
+        file: Path, path: Path, options: Mapping[str, Any] | None = None, /, *, width: int | None = ...,
+        height: int | None = ...,
+        view: Vector | Literal["iso", "front", "back", "left", "right", "top", "bottom"] | None = ...,
+        colour: Literal["quality", "layer", "groups", "region", "origin"] | None = ...,
+        cut: Plane | None = ..., layers: Sequence[int] | None = ..., edges: bool | None = ...,
+        legend: bool | None = ..., title: str | None = ..., facets: bool | None = ...,
+        show: Literal["auto", "faces", "cells"] | None = ...,
+) -> Literal["cells", "faces"]: ...

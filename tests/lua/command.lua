@@ -24,7 +24,7 @@ end
 
 expect({ "--version" }, 0, { "lacuna " .. lacuna.version, "Lua 5.4", lacuna.gmsh_version }, {})
 expect({ "--help" }, 0, { "usage: lacuna", "exit codes" }, {})
-for _, command in ipairs { "info", "view", "check", "convert", "fill" } do
+for _, command in ipairs { "info", "view", "picture", "check", "convert", "fill" } do
   for _, words in ipairs { { command, "--help" }, { "help", command }, { command, "x", "--help" } } do
     expect(words, 0, { "usage: lacuna " .. command }, {})
   end
@@ -38,7 +38,8 @@ for wrong, meant in pairs { inf = "info", inof = "info", infos = "info", infp = 
     expect(words, 2, {}, { "did you mean " .. meant .. "?" })
   end
 end
-expect({ "remesh", "x.step" }, 2, {}, { "remesh", "the commands are info, view, check, convert, fill, help" })
+expect({ "remesh", "x.step" }, 2, {},
+  { "remesh", "the commands are info, view, picture, check, convert, fill, help" })
 check.write(folder .. "/inf", "print 'a recipe'")
 expect({ "inf" }, 0, { "a recipe" }, {}) -- a file of that name is a recipe
 os.remove(folder .. "/inf")
@@ -278,8 +279,18 @@ for _, ending in ipairs { "msh", "vtu", "vtk", "inp", "bdf", "nas", "dat", "unv"
     check.equal(out:find("it shows cells", 1, true) ~= nil, shown, path .. " " .. option)
     local file <close> = assert(io.open(folder .. "/" .. path .. ".view.html"))
     check.equal(file:read("a"):find('"kind":%s*"cells"') ~= nil, shown, path .. " " .. option)
+    local show = shown and "cells" or "faces"
+    expect({ "picture", path, "drawn.png", "show=" .. show, "width=64" }, 0, { "the " .. show }, nil)
   end
 end
+check.that(check.exists(folder .. "/drawn.png"))
+expect({ "picture", "good.msh" }, 2, {}, { "FILE OUT" })
+expect({ "picture", "good.msh", "x.png", "y.png" }, 1, {}, { "y.png" })
+expect({ "picture", "good.msh", "x.html" }, 1, {}, { ".png" })
+expect({ "picture", "good.msh", "x.png", "colur=layer" }, 1, {}, { "colour" })
+expect({ "picture", "good.msh", "x.png", "facets=true" }, 1, {}, { "facets", "show" })
+expect({ "picture", "good.msh", "x.png", "show=faces", "colour=groups" }, 1, {}, { "colour" })
+check.that(not check.exists(folder .. "/x.png"))
 expect({ "convert", "good.msh", "x.xyz" }, 1, {}, { "x.xyz", ".vtu" })
 expect({ "convert", "nowhere.msh", "x.vtu" }, 1, {}, { "nowhere.msh" })
 check.that(not check.exists(folder .. "/x.vtu"))

@@ -60,6 +60,7 @@ local calls = {
   { "PageOptions", function(o) mesh:view("x.html", o) end },
   { "PageOptions", function(o) both:view("x.html", o) end },
   { "ViewOptions", function(o) lacuna.view("x.step", "x.html", o) end },
+  { "FileOptions", function(o) lacuna.picture("x.step", "x.png", o) end },
   { "FacePictureOptions", function(o) prism():picture("x.png", o) end },
   { "FacePictureOptions", function(o) volume():picture("x.png", o) end },
   { "PictureOptions", function(o) mesh:picture("x.png", o) end },

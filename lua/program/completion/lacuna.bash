@@ -3,7 +3,7 @@ _lacuna()
 {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command= each
     for each in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-        case $each in info | view | check | convert | fill | help) command=$each && break ;; esac
+        case $each in info | view | picture | check | convert | fill | help) command=$each && break ;; esac
     done
     COMPREPLY=()
     case $before in
@@ -13,7 +13,7 @@ _lacuna()
     esac
     local flags="--verbose --quiet --traceback --threads --timing --help"
     case $command in
-        help) mapfile -t COMPREPLY < <(compgen -W "info view check convert fill" -- "$word") && return ;;
+        help) mapfile -t COMPREPLY < <(compgen -W "info view picture check convert fill" -- "$word") && return ;;
         info | check) flags+=" --json" ;;
         view) flags+=" --faces" ;;
         "") flags+=" --history --sandbox --output-dir --memory --seconds --version -i -j" ;;
@@ -23,7 +23,7 @@ _lacuna()
     else
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
         [[ -n $command ]] || mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY \
-            < <(compgen -W "info view check convert fill help" -- "$word")
+            < <(compgen -W "info view picture check convert fill help" -- "$word")
     fi
 }
 complete -o filenames -F _lacuna lacuna

@@ -1,12 +1,13 @@
 # fish completion for lacuna
-set -l commands info view check convert fill help
+set -l commands info view picture check convert fill help
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a info -d 'list the faces of a file, with roles and class'
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a view -d 'write an HTML page of a file'
+complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a picture -d 'draw a file as a PNG file'
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a check -d 'print the quality of a mesh'
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a convert -d 'convert a mesh to another format'
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a fill -d 'fill the void of a file'
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a help -d 'describe a command'
-complete -c lacuna -n "__fish_seen_subcommand_from help" -f -a 'info view check convert fill'
+complete -c lacuna -n "__fish_seen_subcommand_from help" -f -a 'info view picture check convert fill'
 complete -c lacuna -n "__fish_seen_subcommand_from info check" -l json -d 'print JSON'
 complete -c lacuna -n "__fish_seen_subcommand_from view" -l faces -d 'show the faces of a mesh, not its cells'
 complete -c lacuna -s i -d 'open an interactive prompt'
