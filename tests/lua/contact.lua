@@ -366,6 +366,46 @@ check.family(params, function(number)
   return ("%s: %.2f %.4f"):format(at, quality.min_scaled_jacobian, quality.volume)
 end)
 
+-- Boards with components, fragmented by the CAD system: every face that two solids share is a whole face of
+-- both. The board is swept through its thickness, because no layers follow the rims of components on its top.
+for number = 1, 6 do
+  local random = check.random(number)
+  local solids = { { 0, 0, 60, 40, 0, 2 } } -- middle, width, depth, low, high; of cylinders the radius alone
+  local places = { { -18, -8 }, { 16, 9 }, { 17, -10 }, { -14, 10 } }
+  for n = 1, 1 + number % 4 do
+    local x, y = table.unpack(places[n])
+    local below = number > 4 and n == 2
+    local low, high = 2, 2 + random(3, 9)
+    if below then low, high = -random(3, 9), 0 end
+    local square = random(0, 1) < 0.5
+    solids[n + 1] = { x, y, square and random(5, 10) or random(3, 5), square and random(5, 10), low, high }
+  end
+  local lines, whole = { 'SetFactory("OpenCASCADE");' }, 0
+  for n, solid in ipairs(solids) do
+    local x, y, a, b, low, high = table.unpack(solid)
+    local deep = high - low
+    lines[n + 1] = b
+      and ("Box(%d) = {%g,%g,%g, %g,%g,%g};"):format(n, x - a / 2, y - b / 2, low, a, b, deep)
+      or ("Cylinder(%d) = {%g,%g,%g, 0,0,%g, %g};"):format(n, x, y, low, deep, a)
+    whole = whole + (b and a * b or math.pi * a ^ 2) * deep
+  end
+  local path = params.scratch .. "/board.geo"
+  check.write(path, table.concat(lines, "\n") .. "\nCoherence;\n")
+  local model, volumes = lacuna.load(path), {}
+  for n, solid in ipairs(solids) do
+    local x, y, a, b, low, high = table.unpack(solid)
+    local u, v = b and a / 2 or a, b and b / 2 or a
+    local box = { { x - u - 0.01, y - v - 0.01, low - 0.01 }, { x + u + 0.01, y + v + 0.01, high + 0.01 } }
+    volumes[n] = model:open_volume { faces = { box = box }, name = n == 1 and "board" or "part_" .. n }
+  end
+  for _, fallback in ipairs { "none", "mixed" } do
+    local quality = lacuna.assembly(volumes):sweep({ size = 2.5, fallback = fallback }):quality()
+    check.equal(quality.tets, 0, number .. " " .. fallback)
+    check.near(quality.volume, whole, 0.01 * whole)
+    check.that(quality.min_scaled_jacobian >= 0.5, number .. ": " .. quality.min_scaled_jacobian)
+  end
+end
+
 -- A boss that overhangs the edge of its plate: the plate's edge crosses the exact circle, not its chords.
 for _, x in ipairs { 55, 58 } do
   local plate, boss = params.scratch .. "/plate.geo", params.scratch .. "/boss.geo"

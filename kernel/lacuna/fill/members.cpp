@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -182,22 +183,23 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
     return ready;
 }
 
-/// Whether layers and columns can follow the edges of a volume's walls.
-bool can_sweep(const topology::OpenVolume& volume, const RunContext& context)
+/// `surface::check_wall_edges()`; empty if layers and columns cannot follow the edges of the volume's walls.
+std::optional<std::size_t> stops_inside_walls(const topology::OpenVolume& volume, const RunContext& context)
 {
     try {
-        surface::check_wall_edges(volume, context);
-        return true;
+        return surface::check_wall_edges(volume, context);
     } catch (const NotSweepable&) {
-        return false;
+        return std::nullopt;
     }
 }
 
-/// How badly a member's sweep suits its neighbours; lower is better. First: whether the member's walls have
-/// edges that layers cannot follow. Second: the number of shared faces that are an end of one volume and a
-/// wall of the other.
-std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& split, std::size_t member,
-                                               const RunContext& context)
+/// How badly a member's sweep suits its walls and neighbours; lower is better. First: the number of vertices
+/// inside its walls at which rows and columns have to meet, of which there are too many if layers cannot
+/// follow the walls' edges. Second: the number of shared faces that are an end of one volume and a wall of
+/// the other.
+using Unsuited = std::pair<std::size_t, std::size_t>;
+
+Unsuited unsuited(const sweep::ImprintedVolumes& split, std::size_t member, const RunContext& context)
 {
     const auto is_wall = [&](std::size_t m, FaceId face) {
         return split.volumes[m].role[face.index()] == topology::Role::wall;
@@ -206,42 +208,53 @@ std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& sp
         return (face.a == member || face.b == member) &&
                is_wall(face.a, face.face_a) != is_wall(face.b, face.face_b);
     });
-    return {!can_sweep(split.volumes[member], context), static_cast<std::size_t>(unlike)};
+    const auto stops = stops_inside_walls(split.volumes[member], context);
+    return {stops.value_or(std::numeric_limits<std::size_t>::max()), static_cast<std::size_t>(unlike)};
 }
 
-/// For each volume whose ends the user did not name and whose faces are divided by neighbours, choose the
-/// sweep that suits its neighbours best. Examples: a board on standoffs is swept from the side on which the
-/// standoffs are; a square pin between two plates is swept from plate to plate.
+/// For each volume whose ends the user did not name, choose the sweep that suits its walls and neighbours best.
+/// Examples: a board on standoffs is swept from the side on which the standoffs are; a square pin between two
+/// plates is swept from plate to plate.
 void choose_sweeps(Prepared& ready, const RunContext& context)
 {
     const auto may_choose = [](const Part* part) { return part->volume.others && !part->volume.no_roles; };
     if (std::ranges::none_of(ready.parts, may_choose)) return;
     const sweep::ImprintedVolumes first = sweep::imprinted(ready.members, context);
-    for (std::size_t m = 0; m < first.volumes.size(); ++m) {
+    std::vector<std::set<std::size_t>> beside(ready.members.size());
+    for (const sweep::SharedFace& face : first.shared) {
+        beside[face.a].insert(face.b);
+        beside[face.b].insert(face.a);
+    }
+    std::vector<std::size_t> doubtful;
+    for (std::size_t m = 0; m < ready.members.size(); ++m)
+        if (unsuited(first, m, context) != Unsuited{}) doubtful.push_back(m);
+    std::set<std::size_t> changed; // each volume changes once, so that the choice ends
+    for (std::size_t i = 0; i < doubtful.size(); ++i) {
+        const std::size_t m = doubtful[i];
         sweep::AssemblyMember& member = ready.members[m];
         Part& part = *ready.parts[m];
-        if (!may_choose(&part) || member.unswept) continue;
+        if (!may_choose(&part) || member.unswept || changed.contains(m)) continue;
         const auto against = [&](const Volume& volume) {
-            member.volume = &volume.volume;
-            return unlike_neighbours(sweep::imprinted(ready.members, context), m, context);
+            std::vector<sweep::AssemblyMember> near{member};
+            near.front().volume = &volume.volume;
+            for (const std::size_t other : beside[m]) near.push_back(ready.members[other]);
+            return unsuited(sweep::imprinted(near, context), 0, context);
         };
-        auto least = unlike_neighbours(first, m, context);
-        if (least == std::pair(false, std::size_t{0})) continue;
         const Volume own = part.volume;
-        least = against(own); // the roles of other volumes may have changed
-        bool taken = false;
+        Unsuited least = against(own); // the roles of other volumes may have changed
         for (std::size_t k = 0; k < own.others->ways.size(); ++k) {
             Volume other = with_other_sweep(own, k);
-            const auto now = against(other);
+            const Unsuited now = against(other);
             if (now >= least) continue;
             least = now;
             part.volume = std::move(other);
-            taken = true;
+            changed.insert(m);
         }
         member.volume = &part.volume.volume;
-        if (taken)
-            log_line(context, formatted("note: {} is swept {}, as its neighbours are", member.region,
-                                        ends_in_words(part.volume.volume)));
+        if (!changed.contains(m)) continue;
+        doubtful.insert(doubtful.end(), beside[m].begin(), beside[m].end());
+        log_line(context, formatted("note: {} is swept {}, which suits its walls and neighbours best",
+                                    member.region, ends_in_words(part.volume.volume)));
     }
 }
 
@@ -438,7 +451,8 @@ void partitions(const topology::OpenVolume& sealed, const closure::TakePieces& t
     // than all others. Not measured.
     constexpr double kThin = 0.1;
     closure::partitions(
-        sealed, [&](const topology::OpenVolume& piece) { return can_sweep(piece, context); },
+        sealed,
+        [&](const topology::OpenVolume& piece) { return stops_inside_walls(piece, context).has_value(); },
         kThin * surface::default_size(sealed).length, take, context);
 }
 

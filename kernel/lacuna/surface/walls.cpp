@@ -346,12 +346,15 @@ std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const Linki
     return meshes;
 }
 
-void check_wall_edges(const OpenVolume& volume, const RunContext& context)
+std::size_t check_wall_edges(const OpenVolume& volume, const RunContext& context)
 {
+    std::ptrdiff_t inside = 0;
     for (const LinkingSurface& link : linking_surfaces(volume, Turning::each, {}, context)) {
-        if (!edges_between(volume.model, link, true).empty())
-            wall_net(volume.model, link, *map_of(volume, link, true, context));
+        if (edges_between(volume.model, link, true).empty()) continue;
+        const WallNet net = wall_net(volume.model, link, *map_of(volume, link, true, context));
+        inside += std::ranges::count_if(net.stops, [](const WallNet::Stop& stop) { return stop.level >= 0; });
     }
+    return static_cast<std::size_t>(inside);
 }
 
 } // namespace lacuna::surface

@@ -501,11 +501,14 @@ std::vector<std::vector<double>> with_sag_of_parts(std::vector<std::vector<doubl
 
 ImprintedVolumes imprinted(std::span<const AssemblyMember> members, const RunContext& context)
 {
-    const FacesInCommon found = faces_in_common(members, context);
+    FacesInCommon found = faces_in_common(members, context);
     ImprintedVolumes result;
-    if (found.partly.empty()) return result;
-    std::vector<AssemblyMember> split(members.begin(), members.end());
     for (const AssemblyMember& member : members) result.volumes.push_back(*member.volume);
+    if (found.partly.empty()) {
+        result.shared = std::move(found.whole);
+        return result;
+    }
+    std::vector<AssemblyMember> split(members.begin(), members.end());
     for (std::size_t m = 0; m < split.size(); ++m) split[m].volume = &result.volumes[m];
     const FaceImprint imprint = imprint_faces(result.volumes, members, found.partly, context);
     result.shared = faces_in_common(split, context, with_sag_of_parts(found.sag, imprint)).whole;

@@ -18,7 +18,7 @@ struct ImprintedVolumes {
 };
 
 /// The members' volumes as `sweep_assembly()` meshes them: faces that are shared in part are split along each
-/// other's rims. `volumes` is empty if no face has to be split.
+/// other's rims.
 /// @throw InvalidInput  as `shared_faces()`; "assembly.part_of_face"  a face cannot be split.
 ImprintedVolumes imprinted(std::span<const AssemblyMember> members, const RunContext& context = {});
 
