@@ -406,6 +406,43 @@ for number = 1, 6 do
   end
 end
 
+-- Members that no single sweep fills are cut as they are alone: an angle with bores in both legs on its
+-- plate, and the resin around a floating board with components, which is swept too.
+local function fragmented(solids, boxes, size, whole)
+  local path, volumes = params.scratch .. "/cut.geo", {}
+  check.write(path, 'SetFactory("OpenCASCADE");\n' .. solids .. "\nCoherence;\n")
+  local model = lacuna.load(path)
+  for n, box in ipairs(boxes) do
+    local faces = box.all and model:faces() or { box = box }
+    volumes[n] = model:open_volume { faces = faces, name = "member_" .. n }
+  end
+  for _, fallback in ipairs { "none", "mixed" } do
+    local quality = lacuna.assembly(volumes):sweep({ size = size, fallback = fallback }):quality()
+    check.equal(quality.tets, 0, fallback)
+    check.near(quality.volume, whole, 0.01 * whole)
+    check.that(quality.min_scaled_jacobian >= 0.5, "least " .. quality.min_scaled_jacobian)
+  end
+end
+
+for thick = 4, 8, 2 do
+  local bores = 2 * math.pi * 16 * thick
+  fragmented(([[
+Box(1) = {0,0,0, 40,30,%d}; Box(2) = {0,0,%d, %d,30,30};
+Cylinder(3) = {28,15,-1, 0,0,20, 4}; Cylinder(4) = {-1,15,22, 20,0,0, 4};
+BooleanUnion(10) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+BooleanDifference(11) = { Volume{10}; Delete; }{ Volume{3,4}; Delete; };
+Box(20) = {-10,-10,-5, 60,50,5};]]):format(thick, thick, thick), {
+    { { -0.1, -0.1, -0.1 }, { 40.1, 30.1, 30.1 + thick } },
+    { { -10.1, -10.1, -5.1 }, { 50.1, 40.1, 0.1 } },
+  }, 3, 40 * 30 * thick + thick * 30 * 30 - bores + 60 * 50 * 5)
+end
+fragmented([[
+Box(1) = {-28,-18,0, 56,36,20}; Box(2) = {-25,-16,4, 50,32,1.6}; Box(3) = {-18,-5,5.6, 12,10,6};
+Cylinder(4) = {10,0,5.6, 0,0,10, 4};]], {
+  { { -25.1, -16.1, 3.9 }, { 25.1, 16.1, 5.7 } }, { { -18.1, -5.1, 5.5 }, { -5.9, 5.1, 11.7 } },
+  { { 5.9, -4.1, 5.5 }, { 14.1, 4.1, 15.7 } }, { all = true },
+}, 2.5, 56 * 36 * 20)
+
 -- A boss that overhangs the edge of its plate: the plate's edge crosses the exact circle, not its chords.
 for _, x in ipairs { 55, 58 } do
   local plate, boss = params.scratch .. "/plate.geo", params.scratch .. "/boss.geo"

@@ -24,6 +24,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -73,24 +74,65 @@ void add_pieces(std::vector<Part>& parts, const Member& asked, const std::string
     }
 }
 
-/// Add a volume, or the pieces into which it has to be cut. If cutting fails, the volume can only be filled
-/// with tetrahedra.
+/// Whether layers and columns can follow the walls of a sealed volume.
+struct Followed {
+    std::size_t stops = std::numeric_limits<std::size_t>::max(); ///< `surface::check_wall_edges()`
+    std::optional<Message> refused;                              ///< why they cannot
+};
+
+Followed follow_walls(const topology::OpenVolume& volume, const RunContext& context)
+{
+    try {
+        return {surface::check_wall_edges(volume, context), std::nullopt};
+    } catch (const NotSweepable& error) {
+        return {.refused = error.message()};
+    }
+}
+
+/// Why no sweep of a volume can follow its walls; empty if one can.
+std::optional<Message> why_no_sweep(const Volume& volume, const RunContext& context)
+{
+    if (volume.along || volume.volume.full_turn) return std::nullopt;
+    const Volume sealed = close(volume, {}, context);
+    const std::size_t ways = sealed.others ? sealed.others->ways.size() : 0;
+    for (std::size_t k = 0; k < ways; ++k)
+        if (!follow_walls(with_other_sweep(sealed, k).volume, context).refused) return std::nullopt;
+    return follow_walls(sealed.volume, context).refused;
+}
+
+/// Add a volume, or the pieces into which it has to be cut. A volume without ends, or one that cannot be cut,
+/// is left to the fallback.
 /// @param name, whole see add_pieces()
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
                const std::string& whole, const RunContext& context)
 {
     const Volume& volume = *asked.volume;
-    if (volume.no_roles || !has_pieces(volume, context)) {
-        parts.push_back({&asked, name, volume, nullptr});
-        return;
+    const bool cuts = may_cut(volume, asked.options.fallback == sweep::Fallback::mixed);
+    std::optional<Message> no_ends = volume.no_roles, why;
+    std::vector<closure::StepPiece> pieces;
+    if (!no_ends && has_pieces(volume, context)) {
+        try {
+            pieces = cut_into_pieces(volume, context);
+            for (const closure::StepPiece& piece : pieces)
+                if (cuts && !why) why = follow_walls(piece.volume, context).refused;
+        } catch (const NotSweepable& error) {
+            if (!cuts) throw;
+            why = no_ends = error.message();
+        }
+    } else if (!no_ends && cuts) {
+        why = why_no_sweep(volume, context);
     }
-    try {
-        add_pieces(parts, asked, name, whole, cut_into_pieces(volume, context));
-    } catch (const NotSweepable& error) {
-        if (asked.options.fallback != sweep::Fallback::mixed) throw;
-        parts.push_back({&asked, name, volume, nullptr});
-        parts.back().volume.no_roles = error.message();
+    if (why) {
+        std::vector<closure::StepPiece> swept = swept_pieces(volume, *why, asked.options, context);
+        if (!swept.empty()) {
+            log_line(context, formatted("note: {} is cut into {} pieces, because {} [{}]", name, swept.size(),
+                                        why->text(), why->code()));
+            pieces = std::move(swept);
+        }
     }
+    if (!pieces.empty()) return add_pieces(parts, asked, name, whole, std::move(pieces));
+    parts.push_back({&asked, name, volume, nullptr});
+    if (no_ends) parts.back().volume.no_roles = std::move(no_ends);
 }
 
 /// Run `what` on a volume of an assembly. If `what` fails and the volume may be left out, add the volume to
@@ -183,16 +225,6 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
     return ready;
 }
 
-/// `surface::check_wall_edges()`; empty if layers and columns cannot follow the edges of the volume's walls.
-std::optional<std::size_t> stops_inside_walls(const topology::OpenVolume& volume, const RunContext& context)
-{
-    try {
-        return surface::check_wall_edges(volume, context);
-    } catch (const NotSweepable&) {
-        return std::nullopt;
-    }
-}
-
 /// How badly a member's sweep suits its walls and neighbours; lower is better. First: the number of vertices
 /// inside its walls at which rows and columns have to meet, of which there are too many if layers cannot
 /// follow the walls' edges. Second: the number of shared faces that are an end of one volume and a wall of
@@ -208,11 +240,11 @@ Unsuited unsuited(const sweep::ImprintedVolumes& split, std::size_t member, cons
         return (face.a == member || face.b == member) &&
                is_wall(face.a, face.face_a) != is_wall(face.b, face.face_b);
     });
-    const auto stops = stops_inside_walls(split.volumes[member], context);
-    return {stops.value_or(std::numeric_limits<std::size_t>::max()), static_cast<std::size_t>(unlike)};
+    return {follow_walls(split.volumes[member], context).stops, static_cast<std::size_t>(unlike)};
 }
 
-/// For each volume whose ends the user did not name, choose the sweep that suits its walls and neighbours best.
+/// For each volume whose ends the user did not name, choose the sweep that suits its walls and neighbours
+/// best.
 /// Examples: a board on standoffs is swept from the side on which the standoffs are; a square pin between two
 /// plates is swept from plate to plate.
 void choose_sweeps(Prepared& ready, const RunContext& context)
@@ -451,9 +483,18 @@ void partitions(const topology::OpenVolume& sealed, const closure::TakePieces& t
     // than all others. Not measured.
     constexpr double kThin = 0.1;
     closure::partitions(
-        sealed,
-        [&](const topology::OpenVolume& piece) { return stops_inside_walls(piece, context).has_value(); },
+        sealed, [&](const topology::OpenVolume& piece) { return !follow_walls(piece, context).refused; },
         kThin * surface::default_size(sealed).length, take, context);
+}
+
+bool may_cut(const Volume& volume, bool mixed)
+{
+    if (mixed || volume.roles_found) return true;
+    const topology::OpenVolume& open = volume.volume;
+    return !open.full_turn && std::ranges::none_of(topology::all_faces(open.model), [&](FaceId face) {
+        return open.role[face.index()] != topology::Role::wall &&
+               open.model[face].origin == topology::Origin::given;
+    });
 }
 
 double swept_share(const std::vector<closure::StepPiece>& pieces)

@@ -215,7 +215,7 @@ public:
         own.log = [&](std::string_view line) { notes.emplace_back(line); };
         note_joined(sealed_.volume.model, pieces, own);
         try {
-            FilledParts mesh = sweep_pieces_true(sealed_, std::move(pieces), options_, sized_, own);
+            FilledParts mesh = sweep_pieces_true(sealed_, pieces, options_, sized_, own);
             const double share = hex_share(mesh);
             if (!(share > share_)) return;
             notes.push_back(formatted("note: no {} fills the volume{}; the report says why [{}]",
@@ -226,6 +226,7 @@ public:
                                       why_.code()));
             mesh.swept.report.insert(mesh.swept.report.begin(), std::move(cut));
             best_ = std::move(mesh);
+            pieces_ = std::move(pieces);
             share_ = share;
             notes_ = std::move(notes);
         } catch (const Cancelled&) {
@@ -236,6 +237,8 @@ public:
     }
 
     [[nodiscard]] double share() const { return share_; }
+    /// The pieces of the best mesh; empty if there is none.
+    std::vector<closure::StepPiece> pieces() { return std::move(pieces_); }
 
     std::optional<FilledParts> best()
     {
@@ -250,32 +253,30 @@ private:
     bool sized_; ///< as for sweep_pieces_true()
     const RunContext& context_;
     std::optional<FilledParts> best_;
+    std::vector<closure::StepPiece> pieces_;
     double share_ = 0; ///< of the volume of `best_` that is in hexahedra
     std::vector<std::string> notes_;
 };
 
-/// Mesh a volume that no single sweep fills, in pieces that can be swept. With `Fallback::mixed`, pieces that
-/// cannot be swept are filled with tetrahedra. If the volume cannot be cut into pieces, it is filled with
-/// tetrahedra as a whole.
-/// @param why  why the volume cannot be swept
-/// @return  empty if no mesh is found.
-std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, const SweepRequest& request,
-                                      const RunContext& context)
+/// Options for the pieces of a volume. All pieces get the same size, because the default sizes of
+/// neighbouring pieces would differ. Ends that were found for the whole volume are not those of the pieces,
+/// and may be small.
+sweep::SweepOptions options_of_pieces(const Volume& volume, sweep::SweepOptions options)
 {
-    const bool mixed = request.options.fallback == sweep::Fallback::mixed;
-    sweep::SweepOptions options = request.options;
     options.layered = false;
     options.crew = nullptr;
-    // All pieces get the same size, because the default sizes of neighbouring pieces would differ. Ends that
-    // were found for the whole volume are not those of the pieces, and may be small.
-    if (!options.size) {
-        topology::OpenVolume sized = volume.volume;
-        if (volume.roles_found) std::ranges::fill(sized.role, topology::Role::wall);
-        options.size = surface::even_size(surface::default_size(sized).length);
-        options.gap = std::max(options.gap, sweep::kDefaultGap);
-    }
-    Volume sealed = sealed_whole(volume, context);
-    PieceMesher mesher(sealed, why, options, static_cast<bool>(request.options.size), context);
+    if (options.size) return options;
+    topology::OpenVolume sized = volume.volume;
+    if (volume.roles_found) std::ranges::fill(sized.role, topology::Role::wall);
+    options.size = surface::even_size(surface::default_size(sized).length);
+    options.gap = std::max(options.gap, sweep::kDefaultGap);
+    return options;
+}
+
+/// Mesh the partitions of a sealed volume, until one is all hexahedra.
+/// @param mixed  whether pieces may be filled with tetrahedra
+void mesh_partitions(PieceMesher& mesher, const Volume& sealed, bool mixed, const RunContext& context)
+{
     // A volume of which less than this share can be swept is filled with tetrahedra alone. On the bodies of
     // the tests, meshing such volumes in pieces took up to a minute, and at most a fifth of the volume became
     // hexahedra.
@@ -293,6 +294,21 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     partitions(sealed.volume, take, context);
     for (auto& [share, pieces] : partial)
         if (share > mesher.share()) mesher.mesh(std::move(pieces));
+}
+
+/// Mesh a volume that no single sweep fills, in pieces that can be swept. With `Fallback::mixed`, pieces that
+/// cannot be swept are filled with tetrahedra. If the volume cannot be cut into pieces, it is filled with
+/// tetrahedra as a whole.
+/// @param why  why the volume cannot be swept
+/// @return  empty if no mesh is found.
+std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, const SweepRequest& request,
+                                      const RunContext& context)
+{
+    const bool mixed = request.options.fallback == sweep::Fallback::mixed;
+    const sweep::SweepOptions options = options_of_pieces(volume, request.options);
+    Volume sealed = sealed_whole(volume, context);
+    PieceMesher mesher(sealed, why, options, static_cast<bool>(request.options.size), context);
+    mesh_partitions(mesher, sealed, mixed, context);
     Filled filled;
     if (auto mesh = mesher.best()) {
         filled.mesh = std::move(*mesh);
@@ -312,14 +328,6 @@ std::vector<std::string>& report_of(Filled& filled)
     return std::get<FilledVolume>(filled.mesh).swept.report;
 }
 
-bool has_given_ends(const topology::OpenVolume& volume)
-{
-    return std::ranges::any_of(topology::all_faces(volume.model), [&](FaceId face) {
-        return volume.role[face.index()] != topology::Role::wall &&
-               volume.model[face].origin == topology::Origin::given;
-    });
-}
-
 Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
     if (volume.no_roles) {
@@ -335,14 +343,12 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
     const std::size_t ways = volume.others ? volume.others->ways.size() : 0;
     const bool mixed = asked.options.fallback == sweep::Fallback::mixed;
     if (mixed) request.options.fallback = sweep::Fallback::none;
-    // Ends that the user named are replaced by ends of pieces only if the fallback is `mixed`.
-    const bool walls_alone = !has_given_ends(volume.volume) && !volume.volume.full_turn;
-    const bool may_cut = mixed || volume.roles_found || walls_alone;
+    const bool cuts = may_cut(volume, mixed);
     for (std::size_t next = 0;; ++next) {
         const Volume& now = other ? *other : volume;
         const bool pieces = has_pieces(now, context);
         const auto note_failure = [&](const Error& error) {
-            if (!first && ways == 0 && !may_cut) throw;
+            if (!first && ways == 0 && !cuts) throw;
             if (!first) first = std::current_exception();
             if (!why) why = error.message();
             if (ways == 0) return;
@@ -365,7 +371,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
         }
         if (next == ways) {
             std::optional<Filled> filled;
-            if (may_cut) filled = sweep_in_pieces(volume, *why, asked, context);
+            if (cuts) filled = sweep_in_pieces(volume, *why, asked, context);
             if (!filled) std::rethrow_exception(first);
             std::vector<std::string>& report = report_of(*filled);
             report.insert(report.begin(), failed.begin(), failed.end());
@@ -377,6 +383,19 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
 }
 
 } // namespace
+
+std::vector<closure::StepPiece> swept_pieces(const Volume& volume, const Message& why,
+                                             const sweep::SweepOptions& asked, const RunContext& context)
+{
+    RunContext quiet = context;
+    quiet.log = nullptr;
+    sweep::SweepOptions options = options_of_pieces(volume, asked);
+    options.fallback = sweep::Fallback::none;
+    const Volume sealed = sealed_whole(volume, quiet);
+    PieceMesher mesher(sealed, why, options, static_cast<bool>(asked.size), quiet);
+    mesh_partitions(mesher, sealed, false, quiet);
+    return mesher.pieces();
+}
 
 Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& options)
 {

@@ -71,6 +71,16 @@ void partitions(const topology::OpenVolume& sealed, const closure::TakePieces& t
 /// The share of the pieces' volume that is in pieces with ends; exactly 1 if all have ends.
 double swept_share(const std::vector<closure::StepPiece>& pieces);
 
+/// A partition of a volume that no single sweep fills, of which every piece can be swept; it was meshed.
+/// Empty if there is none.
+/// @param why  why the volume cannot be swept
+std::vector<closure::StepPiece> swept_pieces(const Volume& volume, const Message& why,
+                                              const sweep::SweepOptions& options, const RunContext& context);
+
+/// Whether a volume that no single sweep fills may be cut. Ends that the user named are replaced by ends of
+/// pieces only if the fallback is `mixed`.
+bool may_cut(const Volume& volume, bool mixed);
+
 /// Sweep the pieces of one volume as an assembly.
 FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,
                          const sweep::SweepOptions& options, const RunContext& context);

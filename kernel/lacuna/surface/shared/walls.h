@@ -60,8 +60,8 @@ std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<c
                                  bool exact = true);
 
 /// Check that layers and columns can follow all edges between the walls of a sealed volume.
-/// @return the number of vertices between both ends at which a row and a column of nodes have to meet. Example:
-///         the corners of a box that stands on a wall.
+/// @return the number of vertices between both ends at which a row and a column of nodes have to meet.
+///         Example: the corners of a box that stands on a wall.
 /// @throw NotSweepable "surface.wall_edge"; or as `linking_surfaces()`. Cancelled
 std::size_t check_wall_edges(const topology::OpenVolume& volume, const RunContext& context = {});
 
