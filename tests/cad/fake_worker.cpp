@@ -23,8 +23,8 @@ LoadReply triangle()
     reply.vertex_tags = {1, 2, 3};
     for (int k = 0; k < 3; ++k)
         reply.edges.push_back({k + 1, k + 1, k, (k + 1) % 3, {0, 1}, {k, (k + 1) % 3}});
-    reply.faces.push_back({1, "face", "", "plane", {{0, 1, 2}}, {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}}});
-    reply.solids = {{0}};
+    reply.faces.push_back({1, "face", "plane", {{0, 1, 2}}, {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}}});
+    reply.solids = {{1, "", {0}}};
     return reply;
 }
 
@@ -86,7 +86,7 @@ int main()
             if (how == "indices") reply.faces[0].triangles[0][1] = 1'000'000;
             if (how == "edges") reply.edges[0].points = {2, 1};
             if (how == "form") reply.edges[0].form = {Vec3(0, 0, 0)};
-            if (how == "solids") reply.solids = {{-1}};
+            if (how == "solids") reply.solids = {{1, "", {-1}}};
             if (how == "nan") reply.points[0].x() = std::numeric_limits<double>::quiet_NaN();
             const bool refuses = how == "refuses" || (how == "noise" && dice() % 2 == 0);
             std::string bytes = refuses ? encode(refusal()) : encode(reply);

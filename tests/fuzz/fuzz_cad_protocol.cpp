@@ -62,8 +62,8 @@ std::string sample(int which)
     for (int k = 0; k < 3; ++k) model.edges.push_back({k, k, k, (k + 1) % 3, {0, 1}, {k, (k + 1) % 3}});
     model.edges[0].form = {{0, 0, 0}, {1, 0, 0}};
     model.edges[1].form = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    model.faces.push_back({1, "face", "", "plane", {{0, 1, 2}}, {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}}});
-    model.solids = {{0}};
+    model.faces.push_back({1, "face", "plane", {{0, 1, 2}}, {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}}});
+    model.solids = {{1, "part", {0}}};
     const SplineAxisData axis{1, {0, 1}, {2, 2}};
     MakeSolidRequest solid;
     solid.points = model.points;

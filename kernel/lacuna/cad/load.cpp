@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/renumbered.h>
 #include <lacuna/healing/shared/orient_groups.h>
 
+#include <map>
 #include <utility>
 
 namespace lacuna::cad {
@@ -59,6 +60,52 @@ void compact(topology::ModelBuilder& model)
     model.diagonal = bounds.isEmpty() ? 0 : bounds.diagonal().norm();
 }
 
+/// Make the solids of a reply regions of the model. Each has a name of its own: its label in the file if no
+/// other solid has it, else the label, or "body", and its tag. The label of one of several solids is the name
+/// of the faces that have none of their own and bound this solid alone.
+void add_solids(topology::ModelBuilder& model, const std::vector<LoadReply::Solid>& solids)
+{
+    std::map<std::string, int> uses;
+    for (const LoadReply::Solid& solid : solids) ++uses[solid.name];
+    for (const LoadReply::Solid& solid : solids) {
+        std::string name = solid.name;
+        if (name.empty() || uses[name] > 1) {
+            name = formatted("{}_{}", name.empty() ? "body" : name, solid.tag);
+            while (uses.contains(name)) name += '_';
+        }
+        for (const Index f : solid.faces) {
+            std::vector<std::string>& region = model.faces[index(f)].regions.emplace_back(1, name);
+            if (!solid.name.empty() && solid.name != name) region.push_back(solid.name);
+        }
+    }
+    for (topology::Face& face : model.faces) {
+        if (face.regions.empty()) continue;
+        const std::string& label = face.regions.front().back();
+        if (!face.name.empty())
+            face.groups = {face.name}; // it is the face's own name
+        else if (solids.size() > 1 && face.regions.size() == 1 && uses.contains(label))
+            face.name = label;
+    }
+}
+
+/// The faces of each solid, then those in no solid. A face between solids is in the first of them.
+std::vector<std::vector<std::size_t>> groups_to_orient(const LoadReply& reply)
+{
+    std::vector<std::vector<std::size_t>> groups;
+    std::vector<bool> taken(reply.faces.size(), false);
+    const auto take = [&](std::size_t f) {
+        if (!taken[f]) groups.back().push_back(f);
+        taken[f] = true;
+    };
+    for (const LoadReply::Solid& solid : reply.solids) {
+        groups.emplace_back();
+        for (const Index f : solid.faces) take(index(f));
+    }
+    groups.emplace_back();
+    for (std::size_t f = 0; f < taken.size(); ++f) take(f);
+    return groups;
+}
+
 /// Make the model of a reply, without its loops.
 void build_model(topology::ModelBuilder& model, LoadReply reply, double scale,
                  const std::shared_ptr<const CadSource>& source)
@@ -73,17 +120,14 @@ void build_model(topology::ModelBuilder& model, LoadReply reply, double scale,
     for (LoadReply::Face& cad : reply.faces) {
         topology::Face face;
         face.tag = cad.tag;
-        face.name = cad.name.empty() ? cad.solid : cad.name;
-        if (!cad.solid.empty()) {
-            if (!cad.name.empty()) face.groups = {std::move(cad.name)}; // it is the face's own name
-            face.regions = {{std::move(cad.solid)}};
-        }
+        face.name = std::move(cad.name);
         face.kind = std::move(cad.kind);
         face.triangles = std::move(cad.triangles);
         face.uv = std::move(cad.uv);
         face.surface = std::make_shared<CadSurface>(CadEntity{source, cad.tag});
         model.faces.push_back(std::move(face));
     }
+    add_solids(model, reply.solids);
     for (Vec3& p : model.points) p *= scale;
     compact(model);
 }
@@ -99,8 +143,7 @@ io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOpti
     LoadReply reply = read_cad_files(*worker, order, files, context);
     const auto source = std::make_shared<const CadSource>(worker, reply.model, order, files.digest);
 
-    std::vector<std::vector<std::size_t>> solids;
-    for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());
+    const std::vector<std::vector<std::size_t>> solids = groups_to_orient(reply);
     topology::ModelBuilder model;
     build_model(model, std::move(reply), options.scale, source);
     model.notes.insert(model.notes.end(), files.notes.begin(), files.notes.end());

@@ -15,7 +15,7 @@ namespace lacuna::cad_protocol {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4443414c; // "LCAD"
-constexpr std::uint16_t kVersion = 6;        // incremented with every change of a message
+constexpr std::uint16_t kVersion = 7;        // incremented with every change of a message
 /// Limit on the descriptors of one frame; Linux allows 253.
 constexpr std::size_t kMostDescriptors = 250;
 /// Limit on the bytes of one frame: more than the largest model that can be meshed.

@@ -57,8 +57,8 @@ void check(const LoadReply& m)
         for (const auto& uv : face.uv) require_finite(uv, "a surface parameter is not finite");
     }
     require(m.left_out.size() <= m.notes.size(), "faces were left out without a note");
-    for (const auto& solid : m.solids)
-        require_below(solid, m.faces.size(), "a face number of a solid is out of range");
+    for (const LoadReply::Solid& solid : m.solids)
+        require_below(solid.faces, m.faces.size(), "a face number of a solid is out of range");
 }
 
 void check(const ProjectRequest& m)

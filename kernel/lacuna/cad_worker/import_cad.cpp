@@ -65,26 +65,17 @@ std::string label_of(int dimension, int tag)
     return is_default_label(name) ? std::string() : name;
 }
 
-/// The name of a face's physical group, else its own.
-std::string name_of_face(int tag)
+/// The name of an entity's physical group, else its own.
+std::string name_of(int dimension, int tag)
 {
     std::vector<int> groups;
-    gmsh::model::getPhysicalGroupsForEntity(2, tag, groups);
+    gmsh::model::getPhysicalGroupsForEntity(dimension, tag, groups);
     for (const int group : groups) {
         std::string name;
-        gmsh::model::getPhysicalName(2, std::abs(group), name);
+        gmsh::model::getPhysicalName(dimension, std::abs(group), name);
         if (!name.empty()) return name;
     }
-    return label_of(2, tag);
-}
-
-/// The name of the solid that a face bounds alone; empty in a model of one solid, where it tells no face from
-/// another.
-std::string name_of_solid(int tag)
-{
-    std::vector<int> solids, curves;
-    gmsh::model::getAdjacencies(2, tag, solids, curves);
-    return solids.size() == 1 && tags_of(3).size() > 1 ? label_of(3, solids.front()) : std::string();
+    return label_of(dimension, tag);
 }
 
 struct Cut {
@@ -188,22 +179,23 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
     }
 }
 
-/// The faces of each solid, then the faces that are in no solid.
-std::vector<std::vector<Index>> solids(const CadWire& wire)
+/// The solids and their faces, without those that were left out.
+std::vector<cad_protocol::LoadReply::Solid> solids(const CadWire& wire)
 {
-    std::map<int, Index> loose; // by tag; the wire lists its faces in this order
-    for (std::size_t f = 0; f < wire.faces.size(); ++f) loose[wire.faces[f].tag] = static_cast<Index>(f);
-    std::vector<std::vector<Index>> groups;
-    for (const int volume : tags_of(3)) {
+    std::map<int, Index> place; // by tag
+    for (std::size_t f = 0; f < wire.faces.size(); ++f) place[wire.faces[f].tag] = static_cast<Index>(f);
+    std::vector<cad_protocol::LoadReply::Solid> found;
+    for (const int tag : tags_of(3)) {
         std::vector<int> up, down;
-        gmsh::model::getAdjacencies(3, volume, up, down);
-        groups.emplace_back();
-        for (const int tag : down)
-            if (const auto face = loose.extract(std::abs(tag))) groups.back().push_back(face.mapped());
+        gmsh::model::getAdjacencies(3, tag, up, down);
+        cad_protocol::LoadReply::Solid& solid = found.emplace_back();
+        solid.tag = tag;
+        solid.name = name_of(3, tag);
+        for (const int face : down)
+            if (const auto known = place.find(std::abs(face)); known != place.end())
+                solid.faces.push_back(known->second);
     }
-    groups.emplace_back();
-    for (const auto& [tag, face] : loose) groups.back().push_back(face);
-    return groups;
+    return found;
 }
 
 /// Report the faces left out. @return for each edge of the wire, the faces left out that have this edge.
@@ -259,8 +251,8 @@ cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, const LeftOut& go
         CadFacets& facets = cut.faces[f];
         const int tag = wire.faces[f].tag;
         source.boxes[tag] = facets.box;
-        reply.faces.push_back({tag, name_of_face(tag), name_of_solid(tag), std::move(facets.kind),
-                               std::move(facets.triangles), std::move(facets.uv)});
+        reply.faces.push_back({tag, name_of(2, tag), std::move(facets.kind), std::move(facets.triangles),
+                               std::move(facets.uv)});
         reply.points.insert(reply.points.end(), facets.added.begin(), facets.added.end());
     }
     reply.solids = solids(wire);

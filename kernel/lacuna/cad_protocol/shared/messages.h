@@ -84,6 +84,11 @@ struct LoadReply {
         std::vector<Index> left_out = {}; ///< positions in LoadReply::left_out: faces with this edge
         std::vector<Vec3> form = {};      ///< defining points as in PlainCurve [file length]; or empty
     };
+    struct Solid {
+        std::int32_t tag = 0;
+        std::string name; ///< empty: none, or a default label
+        std::vector<Index> faces;
+    };
     /// A face that could not be triangulated and is not a sliver.
     struct LeftOut {
         std::int32_t tag = 0;
@@ -92,7 +97,6 @@ struct LoadReply {
     struct Face {
         std::int32_t tag = 0;
         std::string name;
-        std::string solid; ///< name of the only solid that the face bounds; empty: none, or several
         std::string kind;
         std::vector<Triangle> triangles;
         std::vector<std::array<Vec2, 3>> uv;
@@ -103,8 +107,7 @@ struct LoadReply {
     std::vector<std::int32_t> vertex_tags; ///< vertex k is point k
     std::vector<Edge> edges;
     std::vector<Face> faces;
-    std::vector<std::vector<Index>> solids; ///< the faces of each solid; the last list holds the faces in no
-                                            ///< solid
+    std::vector<Solid> solids; ///< a face between two solids is in both
     std::vector<LeftOut> left_out = {};
     std::vector<MessageParts> notes; ///< one sentence for each face left out, first those in `left_out`, then
                                      ///< slivers

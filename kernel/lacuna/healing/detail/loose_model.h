@@ -64,7 +64,10 @@ public:
     /// Remove a face that is listed twice; its tag then names the face that stays.
     void remove_repeated(FaceId gone, FaceId stays)
     {
-        model_[stays].repeated_tags.push_back(model_[gone].tag);
+        topology::Face& kept = model_[stays];
+        kept.repeated_tags.push_back(model_[gone].tag);
+        for (const std::vector<std::string>& region : model_[gone].regions) // of the body on its other side
+            if (std::ranges::find(kept.regions, region) == kept.regions.end()) kept.regions.push_back(region);
         remove(gone);
     }
 
