@@ -22,8 +22,7 @@ struct ImprintedVolumes {
 /// @throw InvalidInput  as `shared_faces()`; "assembly.part_of_face"  a face cannot be split.
 ImprintedVolumes imprinted(std::span<const AssemblyMember> members, const RunContext& context = {});
 
-/// `imprinted()` for members that may lie inside each other, as the parts of one skin may. All volumes are
-/// returned.
+/// `imprinted()` for members that may lie inside each other, as the parts of one skin may.
 /// @param takes  decides whether a pair of faces counts as shared. Its second argument tells whether both
 ///         members lie on the same side of some face that they share.
 ImprintedVolumes imprinted_parts(std::span<const AssemblyMember> members,
