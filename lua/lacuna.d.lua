@@ -369,6 +369,7 @@
 ---@class lacuna.Model
 ---@field tolerance number [model length]
 ---@field diagonal number [model length]
+---@field regions string[] names of the closed bodies, in the order of `bodies()`
 local Model = {}
 --- The faces that the selector selects; without one, all faces.
 ---@param selector? lacuna.Selector|string|integer
@@ -395,6 +396,9 @@ function Model:open_volume(roles) end
 ---@param options? lacuna.QuadsOptions
 ---@return lacuna.QuadMesh
 function Model:quads(options) end
+--- A volume for each closed body: the solids of CAD, the regions of meshes, or else the closed parts.
+---@return lacuna.Volume[]
+function Model:bodies() end
 --- Bodies whose faces touch or face each other.
 ---@param options? lacuna.ContactsOptions
 ---@return lacuna.Contact[]

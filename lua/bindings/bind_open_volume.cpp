@@ -242,6 +242,15 @@ const Option<RoleArguments> kRoleOptions[] = {
     {"fill_to", plane<&RoleArguments::fill_to>},
 };
 
+/// A volume with the decks, the scale and the unit of its model.
+fill::Volume of_model(const ModelState& model, fill::Volume volume)
+{
+    volume.decks = model.decks;
+    volume.scale = model.scale;
+    volume.unit = model.unit;
+    return volume;
+}
+
 /// volume = model:open_volume { source=, target=, walls= [, class=] [, name=] [, material=] }
 /// volume = model:open_volume { source=, along= }
 /// volume = model:open_volume { faces= [, reading=] }, or of all faces: their roles are found
@@ -271,11 +280,25 @@ int open_volume(lua_State* L)
         box = std::make_shared<VolumeState>();
         arguments.decks = model->decks;
         arguments.scale = model->scale;
-        *box = fill::open(model->model, request, context);
-        box->decks = model->decks;
-        box->scale = model->scale;
-        box->unit = model->unit;
+        *box = of_model(*model, fill::open(model->model, request, context));
     });
+    return 1;
+}
+
+/// { volume, … } = model:bodies()
+int bodies(lua_State* L)
+{
+    lua_settop(L, 1);
+    const Box<ModelState>& model = hold_model(L, 1);
+    RunContext& context = push_context(L);
+    auto& volumes = temporary<std::vector<Box<VolumeState>>>(L);
+    guard(L, [&] {
+        for (fill::Volume& volume : fill::open_bodies(model->model, context)) {
+            volumes.push_back(std::make_shared<VolumeState>());
+            *volumes.back() = of_model(*model, std::move(volume));
+        }
+    });
+    push_array(L, volumes, [&](const auto& item) { new_box<VolumeState>(L) = item; });
     return 1;
 }
 
@@ -364,7 +387,7 @@ void bind_open_volume(lua_State* L)
                                  {"free_edges", free_edges},
                                  {"tree", volume_tree},
                                  {"describe", describe_volume}});
-    add_methods<ModelState>(L, {{"open_volume", open_volume}});
+    add_methods<ModelState>(L, {{"open_volume", open_volume}, {"bodies", bodies}});
 }
 
 } // namespace lacuna::lua

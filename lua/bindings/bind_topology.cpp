@@ -2,6 +2,7 @@
 // Model and Face.
 #include "bindings/faces.h"
 
+#include <lacuna/topology/shared/bodies.h>
 #include <lacuna/topology/shared/face_facts.h>
 #include <lacuna/topology/shared/face_radius.h>
 
@@ -168,6 +169,20 @@ int model_field(lua_State* L)
     return give(L, Get(hold_model(L, 1)->model));
 }
 
+/// Names of the closed bodies.
+int model_regions(lua_State* L)
+{
+    const Box<ModelState>& state = hold_model(L, 1);
+    RunContext& context = push_context(L);
+    auto& names = temporary<std::vector<std::string>>(L);
+    guard(L, [&] {
+        for (topology::Body& body : topology::bodies(state->model, context))
+            names.push_back(std::move(body.name));
+    });
+    push_array(L, names, [L](const std::string& name) { give(L, std::string_view(name)); });
+    return 1;
+}
+
 // --- Face -----------------------------------------------------------------------------------------------
 
 /// The Face at index 1, held until the call ends, and its model, brought up to date.
@@ -281,7 +296,8 @@ void bind_topology(lua_State* L)
     using topology::Face;
     make_class<ModelState>(L, {{"__tostring", model_to_string}},
                            {{"tolerance", model_field<[](const auto& model) { return model.tolerance; }>},
-                            {"diagonal", model_field<[](const auto& model) { return model.diagonal; }>}});
+                            {"diagonal", model_field<[](const auto& model) { return model.diagonal; }>},
+                            {"regions", model_regions}});
     add_methods<ModelState>(
         L, {{"faces", faces}, {"face", face}, {"face_from", face_from}, {"add_face", add_face}});
     bind_info(L);

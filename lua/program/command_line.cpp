@@ -112,8 +112,9 @@ it prints the quality. The words are the options of lacuna.load, open_volume, sw
   lacuna fill old.inp new.inp source=FLOOR walls=auto with=true
 
 Without source, target, walls and faces all faces bound the void: a closed body is filled itself, and a note
-lists the faces of its pockets and bores. `lacuna info IN` and `lacuna view IN` show all of them. A list is
-written with commas, walls=4,5,6, a table as in Lua, 'layers={count=8,bias=2}'.
+lists the faces of its pockets and bores. Several closed bodies, such as the solids of a STEP file, become
+regions of one mesh. `lacuna info IN` and `lacuna view IN` show all faces. A list is written with commas,
+walls=4,5,6, a table as in Lua, 'layers={count=8,bias=2}'.
 with=true joins the new cells to the deck that was read.
 )"},
 };

@@ -168,6 +168,14 @@ function commands.picture(...)
   print(("wrote %s: the %s of %s"):format(second, shown, first))
 end
 
+-- The bodies of a model that is nothing else: no face is open, and no body lies inside another one.
+local function bodies_alone(model)
+  if #model.regions < 2 or #model:info().free_edges > 0 then return {} end
+  local apart, bodies = pcall(model.bodies, model)
+  if not apart and bodies.code ~= "topology.bodies_overlap" then error(bodies, 0) end
+  return apart and bodies or {}
+end
+
 function commands.fill(...)
   local options = { load = {}, open_volume = {}, sweep = {}, write = {} }
   local files = { first, second }
@@ -175,7 +183,9 @@ function commands.fill(...)
   local output = table.remove(files)
   local model = lacuna.load(files, options.load)
   if options.write.with == true then options.write.with = model end
-  local volume = model:open_volume(next(options.open_volume) and options.open_volume or nil)
+  local bodies = next(options.open_volume) == nil and bodies_alone(model) or {}
+  local volume = #bodies > 1 and lacuna.assembly(bodies)
+    or model:open_volume(next(options.open_volume) and options.open_volume or nil)
   local mesh = volume:sweep(options.sweep)
   mesh:write(output, options.write)
   print(mesh:quality())

@@ -243,6 +243,11 @@ class Model(Shown):
         """[model length]"""
         return self._field("diagonal")
 
+    @property
+    def regions(self):
+        """names of the closed bodies, in the order of `bodies()`"""
+        return self._field("regions")
+
     def faces(self, selector=None, /, **keywords):
         """The faces that the selector selects; without one, all faces.
 
@@ -362,6 +367,10 @@ class Model(Shown):
         threads: int; default: all cores
         """
         return self._method("quads", options_of(options, keywords))
+
+    def bodies(self):
+        """A volume for each closed body: the solids of CAD, the regions of meshes, or else the closed parts."""
+        return self._method("bodies")
 
     def contacts(self, options=None, /, **keywords):
         """Bodies whose faces touch or face each other.

@@ -14,6 +14,7 @@
 #include <lacuna/fill/detail/touching_parts.h>
 #include <lacuna/io/shared/deck_materials.h>
 #include <lacuna/topology/shared/auto_walls.h>
+#include <lacuna/topology/shared/bodies.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/left_out.h>
@@ -482,7 +483,8 @@ Volume open_named(const Model& model, const RoleRequest& request, const RunConte
     if (request.along || request.full_turn) return open_apart(model, request, context);
     const std::vector<FaceId> named = named_faces(model, request);
     report_progress(context, "roles");
-    auto left = request.find_walls ? leave_out_double_faces(model, named) : std::nullopt;
+    auto left = request.find_walls ? leave_out_other_bodies(model, named, context) : std::nullopt;
+    if (!left && request.find_walls) left = leave_out_double_faces(model, named);
     if (!left) left = leave_out_shared_faces(model, named, request.find_walls);
     if (left) {
         log_line(context, left->note);
@@ -511,6 +513,27 @@ void note_unknown_material(const RoleRequest& request, const RunContext& context
 }
 
 } // namespace
+
+std::vector<Volume> open_bodies(const Model& model, const RunContext& context)
+{
+    const std::vector<topology::Body> bodies = topology::bodies(model, context);
+    topology::require_apart(model, bodies, context);
+    std::set<FaceId> loose;
+    for (const FaceId face : topology::all_faces(model)) loose.insert(face);
+    std::vector<Volume> volumes;
+    for (const topology::Body& body : bodies) {
+        for (const FaceId face : body.faces) loose.erase(face);
+        const Model own = topology::extract(model, body.faces);
+        RoleRequest request;
+        request.faces = topology::all_faces(own);
+        request.name = body.name;
+        volumes.push_back(open(own, request, context));
+    }
+    if (!loose.empty())
+        log_line(context, formatted("note: these faces bound no closed body: {}",
+                                    topology::entities_of(model, loose)));
+    return volumes;
+}
 
 Volume open(const Model& model, const RoleRequest& request, const RunContext& context)
 {

@@ -2,15 +2,18 @@
 #include <lacuna/fill/detail/touching_parts.h>
 
 #include <lacuna/closure/shared/straighten_lines.h>
+#include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/point_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/healing/shared/stitch.h>
 #include <lacuna/sweep/shared/imprinted.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/bodies.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -30,7 +33,7 @@ using sweep::SharedFace;
 namespace {
 
 /// A connected part of the model.
-struct Body {
+struct TouchingBody {
     std::vector<FaceId> faces; ///< faces of the model
     Eigen::AlignedBox3d box;
     bool complete = false; ///< closed, and all its faces are named
@@ -38,7 +41,7 @@ struct Body {
 
 /// The parts that contain named faces. An edge at which more than two faces meet does not connect parts:
 /// solids touch along it.
-std::vector<Body> bodies_named(const Model& model, const std::vector<char>& is_named)
+std::vector<TouchingBody> bodies_named(const Model& model, const std::vector<char>& is_named)
 {
     geometry::UnionFind sets(model.faces.size());
     std::vector<char> is_free(model.faces.size(), 0);
@@ -49,9 +52,9 @@ std::vector<Body> bodies_named(const Model& model, const std::vector<char>& is_n
         else
             for (const FaceUse& use : uses) is_free[use.face.index()] = 1;
     }
-    std::map<std::size_t, Body> by_root;
+    std::map<std::size_t, TouchingBody> by_root;
     for (const FaceId face : all_faces(model)) by_root[sets.find(face.index())].faces.push_back(face);
-    std::vector<Body> bodies;
+    std::vector<TouchingBody> bodies;
     for (auto& [root, body] : by_root) {
         if (std::ranges::none_of(body.faces, [&](FaceId f) { return is_named[f.index()] != 0; })) continue;
         body.complete = std::ranges::all_of(
@@ -67,7 +70,7 @@ std::vector<Body> bodies_named(const Model& model, const std::vector<char>& is_n
 }
 
 /// Keep the bodies whose boxes meet the box of another body.
-void keep_near(std::vector<Body>& bodies)
+void keep_near(std::vector<TouchingBody>& bodies)
 {
     std::vector<std::size_t> order(bodies.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -77,7 +80,7 @@ void keep_near(std::vector<Body>& bodies)
         for (auto b = a + 1; b != order.end() && bodies[*b].box.min().x() <= bodies[*a].box.max().x(); ++b)
             if (bodies[*a].box.intersects(bodies[*b].box)) meets[*a] = meets[*b] = 1;
     }
-    std::vector<Body> kept;
+    std::vector<TouchingBody> kept;
     for (std::size_t b = 0; b < bodies.size(); ++b)
         if (meets[b] != 0) kept.push_back(std::move(bodies[b]));
     bodies = std::move(kept);
@@ -142,7 +145,7 @@ void make_tags_unique(std::vector<Entity>& entities)
 /// split.
 class Joiner {
 public:
-    Joiner(const Model& model, std::vector<Body> bodies, std::vector<char> is_named, bool all_follow,
+    Joiner(const Model& model, std::vector<TouchingBody> bodies, std::vector<char> is_named, bool all_follow,
            const RunContext& context)
         : model_(model),
           bodies_(std::move(bodies)),
@@ -209,13 +212,13 @@ private:
     /// side) count as in contact only if they are inside a third body.
     [[nodiscard]] bool is_contact(const SharedFace& pair, bool same_side) const
     {
-        const Body &a = bodies_[pair.a], &b = bodies_[pair.b];
+        const TouchingBody &a = bodies_[pair.a], &b = bodies_[pair.b];
         if (!all_follow_ && is_named_[original(pair.a, pair.face_a).index()] == 0 &&
             is_named_[original(pair.b, pair.face_b).index()] == 0)
             return false;
         if (are_apart(original(pair.a, pair.face_a), original(pair.b, pair.face_b))) return false;
         if (!a.complete || !b.complete || same_side) return true;
-        return std::ranges::any_of(bodies_, [&](const Body& other) {
+        return std::ranges::any_of(bodies_, [&](const TouchingBody& other) {
             return &other != &a && &other != &b && other.box.contains(a.box) && other.box.contains(b.box);
         });
     }
@@ -300,7 +303,7 @@ private:
             whole.faces[f].tag = model_[before].tag;
             result.faces_of[before.index()].emplace_back(f);
         }
-        for (const Body& body : bodies_)
+        for (const TouchingBody& body : bodies_)
             for (const FaceId face : body.faces) is_other[face.index()] = 0;
         std::vector<FaceId> others;
         for (const FaceId face : all_faces(model_)) {
@@ -320,7 +323,7 @@ private:
     }
 
     const Model& model_;
-    std::vector<Body> bodies_; ///< their faces include the parts of split faces, as in `volumes_`
+    std::vector<TouchingBody> bodies_; ///< their faces include the parts of split faces, as in `volumes_`
     std::vector<char> is_named_;
     bool all_follow_;
     const RunContext& context_;
@@ -346,6 +349,35 @@ std::optional<JoinedParts> without_faces(const Model& model, const std::vector<F
 }
 
 } // namespace
+
+std::optional<JoinedParts> leave_out_other_bodies(const Model& model, const std::vector<FaceId>& ends,
+                                                  const RunContext& context)
+{
+    std::vector<Body> around = topology::bodies(model, context);
+    if (around.size() < 2) return std::nullopt;
+    std::erase_if(around, [&](const Body& body) {
+        const auto is_in = [&](FaceId face) { return std::ranges::binary_search(body.faces, face); };
+        if (!std::ranges::all_of(ends, is_in)) return true;
+        std::vector<FaceId> own;
+        for (const FaceId face : ends)
+            own.emplace_back(
+                static_cast<std::size_t>(std::ranges::lower_bound(body.faces, face) - body.faces.begin()));
+        return !cavity_round(extract(model, body.faces), own, context).empty();
+    });
+    if (around.empty()) return std::nullopt;
+    if (around.size() > 1)
+        throw InvalidInput(Message("topology.walls_ambiguous",
+                                   "walls = \"auto\": the named ends bound both {} and {}", around[0].name,
+                                   around[1].name)
+                               .remedy("give faces = {{ region = \"{}\" }} instead of the roles, or name "
+                                       "the other end too",
+                                       around[0].name));
+    std::vector<FaceId> gone = all_faces(model);
+    std::erase_if(gone, [&](FaceId face) { return std::ranges::binary_search(around[0].faces, face); });
+    return without_faces(
+        model, gone,
+        formatted("note: the walls are searched on {}, which the named ends bound", around[0].name));
+}
 
 std::optional<JoinedParts> leave_out_double_faces(const Model& model, const std::vector<FaceId>& ends)
 {
@@ -402,7 +434,7 @@ std::optional<JoinedParts> join_touching_parts(const Model& model, const std::ve
 {
     std::vector<char> is_named(model.faces.size(), 0);
     for (const FaceId face : named) is_named[face.index()] = 1;
-    std::vector<Body> bodies = bodies_named(model, is_named);
+    std::vector<TouchingBody> bodies = bodies_named(model, is_named);
     keep_near(bodies);
     if (bodies.size() < 2) return std::nullopt;
     return Joiner(model, std::move(bodies), std::move(is_named), all_follow, context).run();

@@ -82,6 +82,11 @@ struct RoleRequest {
 ///         `closure::find_reading()`, `require_none_left_out()` and, with a plane, of cut().
 Volume open(const topology::Model& model, const RoleRequest& request = {}, const RunContext& context = {});
 
+/// Open each closed body of a model, as a volume of its name; see `topology::bodies()`. Notes name faces that
+/// bound no closed body.
+/// @throw InvalidInput "topology.bodies_overlap"  a body lies inside another. Or the errors of open().
+std::vector<Volume> open_bodies(const topology::Model& model, const RunContext& context = {});
+
 /// Replace the class that was found.
 /// @throw InvalidInput "lua.sealed"  the volume is closed already. Or the errors of `topology::classify()`.
 Volume override_class(Volume volume, topology::VolumeClass value);

@@ -7,6 +7,7 @@
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/facet_sag.h>
 #include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -258,6 +259,25 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
     return cavity;
 }
 
+std::optional<FaceId> any_inside(const Model& model, const std::vector<FaceId>& faces,
+                                 const geometry::FacetTree& tree)
+{
+    // Parts of a body may stick out of the volume, so the place deepest in the volume's box decides.
+    const auto depth = [&](const Vec3& p) {
+        return std::min((p - tree.bounds().min()).minCoeff(), (tree.bounds().max() - p).minCoeff());
+    };
+    const auto inside = std::ranges::find_if(faces, [&](FaceId face) {
+        const auto centre = [&](const Triangle& t) { return facet_centre(model, t); };
+        const Vec3 deepest = centre(*std::ranges::max_element(
+            model[face].triangles, {}, [&](const Triangle& t) { return depth(centre(t)); }));
+        // A face on the skin, whose facets may be others, is not inside.
+        const double off = model.tolerance + 2 * facet_sag(model, model[face]);
+        return depth(deepest) > off && tree.closest(deepest, off * off).triangle < 0 &&
+               std::round(tree.winding_number(deepest)) != 0;
+    });
+    return inside == faces.end() ? std::nullopt : std::optional(*inside);
+}
+
 std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const RunContext& context)
 {
     std::set<int> own;
@@ -270,18 +290,7 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
         const auto is_own = [&](FaceId face) { return own.contains(model[face].tag); };
         if (std::ranges::any_of(shell, is_own) || is_between_regions(model, shell)) continue;
         if (!tree) tree.emplace(volume.points, facets_of(volume, all_faces(volume)), context);
-        // Parts of a body may stick out of the volume, so the place deepest in the volume's box decides.
-        const auto depth = [&](const Vec3& p) {
-            return std::min((p - tree->bounds().min()).minCoeff(), (tree->bounds().max() - p).minCoeff());
-        };
-        const auto inside = std::ranges::find_if(shell, [&](FaceId face) {
-            const auto centre = [&](const Triangle& t) { return facet_centre(model, t); };
-            const Vec3 deepest = centre(*std::ranges::max_element(
-                model[face].triangles, {}, [&](const Triangle& t) { return depth(centre(t)); }));
-            // The winding number is 1 inside and a half on the skin itself, up to rounding.
-            return depth(deepest) > 0 && 2 * std::abs(tree->winding_number(deepest)) > 1 + kVisible;
-        });
-        if (inside != shell.end()) found.push_back(*inside);
+        if (const auto inside = any_inside(model, shell, *tree)) found.push_back(*inside);
     }
     return found;
 }

@@ -23,6 +23,14 @@ struct JoinedParts {
     std::string note; ///< names a pair of faces in contact
 };
 
+/// If ends lie on the outside of one of several bodies, leave out the faces of all others, before walls are
+/// found.
+/// @return  empty if each end bounds another body or a cavity, or the model is one body.
+/// @throw InvalidInput "topology.walls_ambiguous"  the ends lie on the outside of two bodies; names both.
+std::optional<JoinedParts> leave_out_other_bodies(const topology::Model& model,
+                                                  const std::vector<FaceId>& ends,
+                                                  const RunContext& context = {});
+
 /// Leave out faces that coincide with another one on the same edges, before walls are found. A STEP file of
 /// solids that touch has the faces between them twice.
 /// @param ends  these faces are kept, and the faces that coincide with them are left out.

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/model.h>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace lacuna::topology {
@@ -47,6 +49,11 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
 /// @note  Near linear in facets.
 std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context = {});
+
+/// The first of some faces that lies inside a volume; checked where the face is deepest in the volume's box.
+/// @param tree  of the facets of the volume.
+std::optional<FaceId> any_inside(const Model& model, const std::vector<FaceId>& faces,
+                                 const geometry::FacetTree& tree);
 
 /// One face of each closed body of a model that lies inside a volume made of other faces of the model.
 /// @param volume  some faces of the model, with their tags; void faces may be added.
