@@ -4,7 +4,7 @@
 -- usage: lacuna bodies.lua scratch=FOLDER lacuna=PROGRAM
 local lacuna = require "lacuna"
 local check = dofile((arg[0]:match "^(.*[/\\])" or "") .. "check.lua")
-local params = lacuna.params { scratch = ".", lacuna = "lacuna" }
+local params = lacuna.params { scratch = ".", lacuna = "lacuna", shared = "" }
 local pi = math.pi
 
 -- Solids as { volume, text of Gmsh with the tag left open }.
@@ -214,6 +214,18 @@ Physical Volume("cell") = {1,3}; Physical Volume("foil") = {2};
   check.equal(table.concat(lacuna.load(out).regions, " "), "cell_1 foil cell_3 body_4")
   check.that(run "source=1 target=2 walls=auto")
   check.equal(#lacuna.load(out).regions, 1)
+end
+
+-- Of a body that is cut, the first pieces that can be meshed are taken: cuts cross the kept mesh of a deck.
+do
+  local path = params.shared .. "/data/fem/nested_cubes.msh"
+  if check.exists(path) then
+    local model = lacuna.load(path)
+    check.equal(#model.regions, 2)
+    local mesh = lacuna.assembly(model:bodies()):sweep()
+    check.that(mesh:quality().certified)
+    check.near(mesh.fidelity.volume / mesh.fidelity.sealed_volume, 1, 1e-9)
+  end
 end
 
 -- A solid in another one is refused as a body of its own; the space between is filled as before.

@@ -2,7 +2,9 @@
 #include <lacuna/fill/describe.h>
 
 #include <lacuna/closure/shared/model_facts.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
+#include <lacuna/topology/shared/bodies.h>
 #include <lacuna/topology/shared/select_faces.h>
 
 #include <algorithm>
@@ -135,6 +137,13 @@ std::string describe(const Model& model, const RunContext& context)
         text += formatted("{}: open_volume{{ faces = {{ {} }} }}, likely class {}, volume {:.4g}\n",
                           cavity.kind, tags_text(model, cavity.faces, cavity.faces.size()),
                           topology::to_string(cavity.value), cavity.volume);
+    const std::vector<topology::Body> bodies = topology::bodies(model, context);
+    if (bodies.size() > 1)
+        text += formatted(
+            "{} bodies: {}; model:bodies() opens each, and faces = {{ region = \"{}\" }} are the "
+            "faces of one\n",
+            bodies.size(), short_list(bodies, [](const auto& body) { return body.name; }),
+            bodies.front().name);
     return text;
 }
 
