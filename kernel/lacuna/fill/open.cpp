@@ -518,6 +518,10 @@ std::vector<Volume> open_bodies(const Model& model, const RunContext& context)
 {
     const std::vector<topology::Body> bodies = topology::bodies(model, context);
     topology::require_apart(model, bodies, context);
+    if (bodies.size() > 1) { // the hollow between two halves of a mould is a cavity of both together
+        const auto joined = join_touching_parts(model, topology::all_faces(model), false, context);
+        note_body_filled(joined ? joined->model : model, context);
+    }
     std::set<FaceId> loose;
     for (const FaceId face : topology::all_faces(model)) loose.insert(face);
     std::vector<Volume> volumes;
