@@ -275,6 +275,15 @@ do
   check.that(count.right > 2 * (count.noted + count.refused), "fewer than before")
 end
 
+-- The facets of a whole skin with an inner void enclose the volume without it.
+do
+  local l = random(4, 6)
+  local model = load(("Box(1)={0,0,0,%g,4,4}; Box(2)={1,1,1,2,2,2};"):format(l)
+    .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}")
+  local _, found = sealed_without(model, {})
+  check.near(found, 16 * l - 8, 0.01)
+end
+
 -- A mouth whose flat face would pass through the walls along the edges of their facets is refused.
 do
   local model, points, cells = lacuna.model(), {}, {}

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/mesh_file.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
@@ -60,18 +61,15 @@ void check_sealed(const OpenVolume& volume)
     if (balance.empty() || !met || !free_edges(volume).empty()) throw_not_sealed(volume);
 }
 
-Skin skin_of(const OpenVolume& volume)
+Skin skin_of(const OpenVolume& volume, const RunContext& context)
 {
-    const Model& model = volume.model;
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
-    const bool inward = volume_integral(model, all) < 0;
+    Model model = volume.model;
+    orient_skin(model, context);
     Skin skin;
     std::vector<Index> number(model.points.size(), -1);
     for (const Face& face : model.faces) {
         skin.start.push_back(skin.triangles.size());
         for (Triangle t : face.triangles) {
-            if (inward) std::swap(t[1], t[2]);
             for (Index& p : t) {
                 Index& place = number[static_cast<std::size_t>(p)];
                 if (place < 0) {
@@ -246,7 +244,7 @@ void write_facets(const OpenVolume& volume, const OutputPath& path, const FacetF
                                    ending)
                                .remedy("use .stl, .obj or .msh"));
     check_sealed(volume);
-    const Skin skin = skin_of(volume);
+    const Skin skin = skin_of(volume, context);
     if (ending == ".msh")
         write_deck(deck_of(volume, skin), DeckFormat::msh, path, context,
                    {.binary = options.binary, .all_groups = options.all_groups});
