@@ -284,6 +284,39 @@ do
   check.near(found, 16 * l - 8, 0.01)
 end
 
+-- No given face of a body is cut off as if it stuck out of another part: spools and stepped shafts with a
+-- bore, without any two faces.
+for _ = 1, whole and 4 or 1 do
+  local r, h = random(1.5, 2.5), random(1, 1.6)
+  local bore = ("Cylinder(9)={0,0,-1,0,0,9,%g};"):format(r / 4)
+  for _, body in ipairs {
+    ("Cylinder(1)={0,0,0,0,0,%g,%g}; Cylinder(2)={0,0,%g,0,0,%g,9};"):format(h, r, h / 4, h / 2)
+      .. ("Cylinder(3)={0,0,0,0,0,9,%g};"):format(0.7 * r) .. bore
+      .. "BooleanDifference(4)={Volume{2};Delete;}{Volume{3};Delete;};"
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{4,9};Delete;}",
+    ("Cylinder(1)={0,0,0,0,0,1,%g}; Cylinder(2)={0,0,1,0,0,%g,%g};"):format(r, h, 0.6 * r)
+      .. ("Cylinder(3)={0,0,%g,0,0,1,%g};"):format(1 + h, 0.8 * r) .. bore
+      .. "BooleanUnion(4)={Volume{1};Delete;}{Volume{2,3};Delete;};"
+      .. "BooleanDifference{Volume{4};Delete;}{Volume{9};Delete;}",
+  } do
+    local model = load(body)
+    local faces = model:faces()
+    for i = 1, #faces do
+      for j = i + 1, #faces do
+        local fine, void = pcall(sealed_without, model, { [faces[i].tag] = true, [faces[j].tag] = true })
+        local area = {}
+        for _, face in ipairs(fine and void:model():faces() or {}) do
+          area[("%.6g"):format(face.area)] = true
+        end
+        for k, face in ipairs(fine and faces or {}) do
+          check.that(k == i or k == j or area[("%.6g"):format(face.area)],
+            ("%s without faces %d, %d: face %d is lost"):format(body, faces[i].tag, faces[j].tag, face.tag))
+        end
+      end
+    end
+  end
+end
+
 -- A mouth whose flat face would pass through the walls along the edges of their facets is refused.
 do
   local model, points, cells = lacuna.model(), {}, {}

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -144,6 +145,33 @@ FaceId face_beside(const Model& model, const std::vector<FaceId>& part, const Ri
         part, [&](FaceId face) { return edges_of(model, {face}).contains(rim.uses.front().edge); });
 }
 
+/// Whether a rim is filled by the material of the closed solid that its faces belong to: the space behind its
+/// plane is then no void that other parts stick out of.
+bool is_full(const Model& model, const std::vector<FaceId>& part, const std::vector<Vec3>& rim,
+             const geometry::Plane& plane)
+{
+    for (const std::vector<FaceId>& shell : connected_parts(model, all_faces(model))) {
+        if (std::ranges::find(shell, part.front()) == shell.end()) continue;
+        if (!rims(model, shell).empty()) return false;
+        const auto solid = unless_refused([&] {
+            Model oriented = extract(model, shell);
+            orient_consistently(oriented);
+            return oriented;
+        });
+        if (!solid) return false;
+        std::vector<FaceId> own;
+        for (std::size_t f = 0; f < shell.size(); ++f)
+            if (std::ranges::find(part, shell[f]) != part.end()) own.emplace_back(f);
+        // The faces are on the left of their rims.
+        return std::ranges::any_of(rims(*solid, own), [&](const Rim& other) {
+            const std::vector<Vec3> places = loop_places(*solid, other.uses);
+            return places.size() == rim.size() && std::ranges::find(rim, places.front()) != rim.end() &&
+                   geometry::newell_vector(places).dot(plane.normal) < 0;
+        });
+    }
+    return false;
+}
+
 /// The plane of a rim if the rim is flat and its part lies on one side of it, which is behind the plane.
 std::optional<geometry::Plane> plane_of_end(const Model& model, const std::vector<FaceId>& part,
                                             const std::vector<Vec3>& rim)
@@ -233,7 +261,7 @@ std::optional<Overhang> find_overhang(const Model& model, const std::vector<Face
                     out.insert(out.end(), part.begin(), part.end());
                 return true;
             });
-            if (is_mouth && !out.empty())
+            if (is_mouth && !out.empty() && !is_full(model, parts[around], loop, *plane))
                 return Overhang{*plane, std::move(out), face_beside(model, parts[around], rim)};
         }
     return std::nullopt;
