@@ -317,6 +317,23 @@ for _ = 1, whole and 4 or 1 do
   end
 end
 
+-- The missing wall of a bore between two rims of one radius, one of them in a flat face, is round: a floor
+-- round a narrower bore is not closed there.
+for _ = 1, whole and 4 or 1 do
+  local r, l = random(0.5, 0.9), random(1, 2)
+  local drill = ("BooleanDifference{Volume{1};Delete;}{Volume{2,3};Delete;}")
+  local plate = ("Box(1)={-2,-2,0,4,4,%g}; Cylinder(2)={0,0,0,0,0,%g,%g};"):format(l, l, r)
+  for _, case in ipairs {
+    { plate .. ("Cone(3)={0,0,%g,0,0,0.5,%g,%g};"):format(l - 0.4, r, 2 * r) .. drill, { r, 0, l / 4 } },
+    { plate .. ("Cylinder(3)={0,0,%g,0,0,0.5,%g};"):format(l - 0.4, 1.5 * r) .. drill, { r, 0, l / 4 } },
+  } do
+    local model = load(case[1])
+    local _, wanted = sealed_without(model, {})
+    local _, found = sealed_without(model, { [model:face { near = case[2] }.tag] = true })
+    check.near(found / wanted, 1, 0.01)
+  end
+end
+
 -- A mouth whose flat face would pass through the walls along the edges of their facets is refused.
 do
   local model, points, cells = lacuna.model(), {}, {}

@@ -251,8 +251,12 @@ OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
 std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
-    if (auto floor = read_floor(model, faces, context); floor && closes_flat(*floor))
-        return {std::move(*floor)};
+    if (auto floor = read_floor(model, faces, context); floor && closes_flat(*floor)) {
+        std::vector<Reading> readings;
+        readings.push_back(std::move(*floor));
+        prefer_told(model, faces, readings, context);
+        return readings;
+    }
     const auto seals = [&](const RoleCandidate& candidate) {
         return seal(model, candidate.roles, context).has_value();
     };
