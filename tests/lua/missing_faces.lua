@@ -334,6 +334,31 @@ for _ = 1, whole and 4 or 1 do
   end
 end
 
+-- Missing sides of a loft from a square to a circle are ruled, because their sides are straight.
+for _ = 1, whole and 4 or 1 do
+  local a, c, h = random(1.2, 2), random(0.5, 1), random(2, 3)
+  local script = ""
+  for k, corner in ipairs { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } } do
+    local x, y = table.unpack(corner)
+    script = script .. ("Point(%d)={%g,%g,0};"):format(k, a * x, a * y)
+        .. ("Point(1%d)={%g,%g,%g};"):format(k, c * x, c * y, h)
+  end
+  script = script .. ("Point(20)={0,0,%g};"):format(h)
+  for k = 1, 4 do
+    script = script .. ("Line(%d)={%d,%d};"):format(k, k, k % 4 + 1)
+        .. ("Circle(1%d)={1%d,20,1%d};"):format(k, k, k % 4 + 1)
+  end
+  local model = load(script .. "Curve Loop(1)={1:4}; Curve Loop(2)={11:14}; Ruled ThruSections(1)={1,2};")
+  local _, wanted = sealed_without(model, {})
+  local middle = (a + c) / 2
+  for _, places in ipairs { { { middle, 0, h / 2 } }, { { middle, 0, h / 2 }, { 0, middle, h / 2 } } } do
+    local gone = {}
+    for _, place in ipairs(places) do gone[model:face { near = place }.tag] = true end
+    local _, found = sealed_without(model, gone)
+    check.near(found / wanted, 1, 0.01)
+  end
+end
+
 -- A mouth whose flat face would pass through the walls along the edges of their facets is refused.
 do
   local model, points, cells = lacuna.model(), {}, {}

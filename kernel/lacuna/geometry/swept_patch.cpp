@@ -119,10 +119,8 @@ Vec3 SweptPatch::operator()(double s, double t) const
     const Vec3 e_chord = (1 - s) * top_.points.front() + s * top_.points.back();
     const Vec3 chord = (1 - s) * l + s * r;
     if (!turns_) return chord + (1 - t) * (b - b_chord) + t * (e - e_chord);
-    const double b_size = bottom_.arc.back(), e_size = top_.arc.back();
-    const Vec3 deviation = (1 - t) / b_size * (first_.transpose() * (b - b_chord)) +
-                           t / e_size * (last_.transpose() * (e - e_chord));
-    return chord + ((1 - t) * b_size + t * e_size) * (frame(t) * deviation);
+    return chord + frame(t) * ((1 - t) * (first_.transpose() * (b - b_chord)) +
+                               t * (last_.transpose() * (e - e_chord)));
 }
 
 double SweptPatch::unlike() const

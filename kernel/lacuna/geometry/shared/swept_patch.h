@@ -17,11 +17,10 @@ namespace lacuna::geometry {
 /// narrow where the path has another direction than at both ends. Here these displacements rotate with the
 /// path. At each t, the frame F(t) is spanned by the direction of the sides left and right, and by the chord
 /// from left(t) to right(t). The point is
-///   x(s, t) = (1−s) left(t) + s right(t) + size(t) F(t) [(1−t) b(s) + t e(s)].
-/// b is the deviation of the bottom from its chord, in the frame F(0) and divided by the length of the
-/// bottom. e is the same for the top, in the frame F(1). size(t) interpolates between the lengths of bottom
-/// and top. The patch contains all four sides. If the frame does not rotate and the two lengths are equal,
-/// the result is the Coons patch.
+///   x(s, t) = (1−s) left(t) + s right(t) + F(t) [(1−t) b(s) + t e(s)].
+/// b is the deviation of the bottom from its chord, in the frame F(0). e is the same for the top, in the
+/// frame F(1). The patch contains all four sides. If the frame does not rotate, the result is the Coons
+/// patch, which is ruled between straight sides.
 ///
 /// If left and right coincide (a seam) and are bent, bottom and top are closed, and there is no chord. The
 /// frame then moves along the seam with minimal rotation, plus a uniform twist for which the deviations of
