@@ -75,7 +75,8 @@ for name, options in pairs { packed_box = { "layers=7", "size=14" }, resin = { "
   solve(name, text, regions)
 end
 
--- A prism of five sides below a pointed roof, which cannot be swept. Its quads are paved and its top slants.
+-- A prism of five sides below a pointed roof with a hole inside, which cannot be swept. The prism's quads are
+-- paved and its top slants.
 do
   local rim = { { 0, 0 }, { 1.3, 0.1 }, { 1.6, 0.9 }, { 0.7, 1.4 }, { -0.2, 0.8 } }
   local function face(model, points)
@@ -96,6 +97,10 @@ do
     local next = k % #rim + 1
     face(base, { floor[#rim + 1 - k], floor[#rim + 1 - next], top[next], top[k] })
     face(roof, { top[k], top[next], tip })
+  end
+  local hole = { { 0.7, 0.5, 1.3 }, { 0.8, 0.5, 1.3 }, { 0.7, 0.6, 1.3 }, { 0.7, 0.5, 1.4 } }
+  for _, side in ipairs { { 1, 2, 3 }, { 1, 4, 2 }, { 2, 4, 3 }, { 3, 4, 1 } } do
+    face(roof, { hole[side[1]], hole[side[2]], hole[side[3]] })
   end
   local both = lacuna.assembly { base:open_volume { name = "base" }, roof:open_volume { name = "roof" } }
   local mesh = both:sweep { size = 0.25, fallback = "mixed" }

@@ -100,15 +100,15 @@ std::optional<Message> why_no_sweep(const Volume& volume, const RunContext& cont
     return follow_walls(sealed.volume, context).refused;
 }
 
-/// Add a volume, or the pieces into which it has to be cut. A volume without ends, or one that cannot be cut,
-/// is left to the fallback.
+/// Add a volume, or the pieces into which it has to be cut. A volume without ends that cannot be cut is left
+/// to the fallback.
 /// @param name, whole see add_pieces()
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
                const std::string& whole, const RunContext& context)
 {
     const Volume& volume = *asked.volume;
     const bool cuts = may_cut(volume, asked.options.fallback == sweep::Fallback::mixed);
-    std::optional<Message> no_ends = volume.no_roles, why;
+    std::optional<Message> no_ends = volume.no_roles, why = no_ends;
     std::vector<closure::StepPiece> pieces;
     if (!no_ends && has_pieces(volume, context)) {
         try {
