@@ -443,6 +443,27 @@ Cylinder(4) = {10,0,5.6, 0,0,10, 4};]], {
   { { 5.9, -4.1, 5.5 }, { 14.1, 4.1, 15.7 } }, { all = true },
 }, 2.5, 56 * 36 * 20)
 
+-- Boxes of three heights side by side: those between unlike neighbours would have both ends divided, unlike.
+do
+  local lines, volumes, whole = { 'SetFactory("OpenCASCADE");' }, {}, 0
+  for n = 0, 35 do
+    local high = 1 + n // 6 % 3 / 2
+    lines[n + 2] = ("Box(%d) = {%d,%d,0, 1,1,%g};"):format(n + 1, n // 6, n % 6, high)
+    whole = whole + high
+  end
+  local path = params.scratch .. "/heights.geo"
+  check.write(path, table.concat(lines, "\n"))
+  local model = lacuna.load(path)
+  for n = 0, 35 do
+    local faces = {}
+    for k = 1, 6 do faces[k] = 6 * n + k end
+    volumes[n + 1] = model:open_volume { faces = faces }
+  end
+  local quality = lacuna.assembly(volumes):sweep({ size = 0.5 }):quality()
+  check.near(quality.volume, whole, 1e-9)
+  check.that(quality.min_scaled_jacobian > 0.5, "boxes: " .. quality.min_scaled_jacobian)
+end
+
 -- A boss that overhangs the edge of its plate: the plate's edge crosses the exact circle, not its chords.
 for _, x in ipairs { 55, 58 } do
   local plate, boss = params.scratch .. "/plate.geo", params.scratch .. "/boss.geo"

@@ -20,6 +20,7 @@
 #include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -225,11 +226,12 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
     return ready;
 }
 
-/// How badly a member's sweep suits its walls and neighbours; lower is better. First: the number of vertices
-/// inside its walls at which rows and columns have to meet, of which there are too many if layers cannot
-/// follow the walls' edges. Second: the number of shared faces that are an end of one volume and a wall of
-/// the other.
-using Unsuited = std::pair<std::size_t, std::size_t>;
+/// How badly a member's sweep suits its walls, ends and neighbours; lower is better. First: the number of
+/// vertices inside its walls at which rows and columns have to meet, of which there are too many if layers
+/// cannot follow the walls' edges. Second: the number of faces, beyond one, of the end that has fewer: edges
+/// of both ends have to be imprinted on each other. Third: the number of shared faces that are an end of one
+/// volume and a wall of the other.
+using Unsuited = std::array<std::size_t, 3>;
 
 Unsuited unsuited(const sweep::ImprintedVolumes& split, std::size_t member, const RunContext& context)
 {
@@ -240,7 +242,11 @@ Unsuited unsuited(const sweep::ImprintedVolumes& split, std::size_t member, cons
         return (face.a == member || face.b == member) &&
                is_wall(face.a, face.face_a) != is_wall(face.b, face.face_b);
     });
-    return {follow_walls(split.volumes[member], context).stops, static_cast<std::size_t>(unlike)};
+    const topology::OpenVolume& volume = split.volumes[member];
+    const std::size_t fewer = std::min(volume.faces(topology::Role::source).size(),
+                                       volume.faces(topology::Role::target).size());
+    return {follow_walls(volume, context).stops, std::max<std::size_t>(fewer, 1) - 1,
+            static_cast<std::size_t>(unlike)};
 }
 
 /// For each volume whose ends the user did not name, choose the sweep that suits its walls and neighbours
