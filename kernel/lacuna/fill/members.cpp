@@ -104,8 +104,9 @@ std::optional<Message> why_no_sweep(const Volume& volume, const RunContext& cont
 /// Add a volume, or the pieces into which it has to be cut. A volume without ends that cannot be cut is left
 /// to the fallback.
 /// @param name, whole see add_pieces()
+/// @param meshes  whether the volume is to be meshed; if not, only its own steps are cut
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
-               const std::string& whole, const RunContext& context)
+               const std::string& whole, bool meshes, const RunContext& context)
 {
     const Volume& volume = *asked.volume;
     const bool cuts = may_cut(volume, asked.options.fallback == sweep::Fallback::mixed);
@@ -115,15 +116,15 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
         try {
             pieces = cut_into_pieces(volume, context);
             for (const closure::StepPiece& piece : pieces)
-                if (cuts && !why) why = follow_walls(piece.volume, context).refused;
+                if (meshes && cuts && !why) why = follow_walls(piece.volume, context).refused;
         } catch (const NotSweepable& error) {
             if (!cuts) throw;
             why = no_ends = error.message();
         }
-    } else if (!no_ends && cuts) {
+    } else if (!no_ends && cuts && meshes) {
         why = why_no_sweep(volume, context);
     }
-    if (why) {
+    if (why && meshes) {
         std::vector<closure::StepPiece> swept = swept_pieces(volume, *why, asked.options, context);
         if (!swept.empty()) {
             log_line(context, formatted("note: {} is cut into {} pieces, because {} [{}]", name, swept.size(),
@@ -255,23 +256,27 @@ Unsuited unsuited(const sweep::ImprintedVolumes& split, std::size_t member, cons
 /// plates is swept from plate to plate.
 void choose_sweeps(Prepared& ready, const RunContext& context)
 {
-    const auto may_choose = [](const Part* part) { return part->volume.others && !part->volume.no_roles; };
-    if (std::ranges::none_of(ready.parts, may_choose)) return;
+    const auto may_choose = [&](std::size_t m) {
+        const Volume& volume = ready.parts[m]->volume;
+        return volume.others && !volume.no_roles && !ready.members[m].unswept;
+    };
+    std::vector<std::size_t> doubtful;
+    for (std::size_t m = 0; m < ready.members.size(); ++m)
+        if (may_choose(m)) doubtful.push_back(m);
+    if (doubtful.empty()) return;
     const sweep::ImprintedVolumes first = sweep::imprinted(ready.members, context);
     std::vector<std::set<std::size_t>> beside(ready.members.size());
     for (const sweep::SharedFace& face : first.shared) {
         beside[face.a].insert(face.b);
         beside[face.b].insert(face.a);
     }
-    std::vector<std::size_t> doubtful;
-    for (std::size_t m = 0; m < ready.members.size(); ++m)
-        if (unsuited(first, m, context) != Unsuited{}) doubtful.push_back(m);
+    std::erase_if(doubtful, [&](std::size_t m) { return unsuited(first, m, context) == Unsuited{}; });
     std::set<std::size_t> changed; // each volume changes once, so that the choice ends
     for (std::size_t i = 0; i < doubtful.size(); ++i) {
         const std::size_t m = doubtful[i];
         sweep::AssemblyMember& member = ready.members[m];
         Part& part = *ready.parts[m];
-        if (!may_choose(&part) || member.unswept || changed.contains(m)) continue;
+        if (!may_choose(m) || changed.contains(m)) continue;
         const auto against = [&](const Volume& volume) {
             std::vector<sweep::AssemblyMember> near{member};
             near.front().volume = &volume.volume;
@@ -441,8 +446,9 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
 }
 
 /// The parts of an assembly: the volumes, cut where needed, and the finished meshes.
+/// @param meshes  see add_parts()
 std::vector<Part> parts_of(std::span<const Member> members, std::vector<sweep::LeftOut>& left_out,
-                           const RunContext& context)
+                           bool meshes, const RunContext& context)
 {
     std::vector<Part> parts;
     for (std::size_t m = 0; m < members.size(); ++m) {
@@ -455,7 +461,7 @@ std::vector<Part> parts_of(std::span<const Member> members, std::vector<sweep::L
         const std::string& own = member.volume->name;
         const std::string name = own.empty() ? formatted("volume_{}", m + 1) : own;
         const std::size_t first = parts.size();
-        const auto add = [&] { add_parts(parts, member, name, name, context); };
+        const auto add = [&] { add_parts(parts, member, name, name, meshes, context); };
         if (!do_or_leave_out(left_out, name, member, add))
             parts.push_back({&member, name, *member.volume, nullptr, true});
         for (std::size_t p = first; p < parts.size() && !member.volume->glued; ++p) parts[p].glue = m + 1;
@@ -550,7 +556,7 @@ Filled sweep(std::span<const Member> members, const RunContext& host, const Cont
 {
     const RunContext context = never_falling(host);
     std::vector<sweep::LeftOut> left_out;
-    std::vector<Part> parts = parts_of(members, left_out, context);
+    std::vector<Part> parts = parts_of(members, left_out, true, context);
     const auto asked = std::ranges::find_if(members, [](const Member& member) {
         return member.volume != nullptr && member.options.fallback != sweep::Fallback::mixed;
     });
@@ -575,7 +581,7 @@ std::vector<Contact> contacts(std::span<const Member> members, const ContactRequ
     std::vector<Member> closed(members.begin(), members.end());
     for (Member& member : closed) member.options.fallback = sweep::Fallback::mixed;
     std::vector<sweep::LeftOut> none;
-    std::vector<Part> parts = parts_of(closed, none, context);
+    std::vector<Part> parts = parts_of(closed, none, false, context);
     return without_faces(find_contacts(prepare(parts, {}, false, context).members, request, context));
 }
 
