@@ -234,6 +234,21 @@ for what, case in pairs {
   check.that(code ~= 0 or err:find("note: ", 1, true), what .. ": " .. err)
 end
 
+-- A member of an assembly is closed once: what closing assumes is noted once.
+do
+  check.write(params.scratch .. "/member.geo", [[SetFactory("OpenCASCADE");
+    Box(1) = {0,0,0, 20,20,10}; Cylinder(2) = {10,10,-1, 0,0,20, 3};
+    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])
+  check.write(params.scratch .. "/recipe.lua", [[
+    local lacuna = require "lacuna"
+    local model = lacuna.load "member.geo"
+    lacuna.assembly { model:open_volume { faces = { 1, 2, 3, 4, 5 } } }:sweep { size = 3 }
+  ]])
+  local code, _, err = check.run(params.lacuna, params.scratch, { "recipe.lua" })
+  check.equal(code, 0, err)
+  check.equal(select(2, err:gsub("%[closure%.wall_assumed%]", "")), 1, err)
+end
+
 -- One to three faces of generated bodies, drawn at random, are sealed right, noted or refused. No body has a
 -- feature that three faces hide, as those of a blind bore and round its mouth do.
 do

@@ -90,11 +90,9 @@ Followed follow_walls(const topology::OpenVolume& volume, const RunContext& cont
     }
 }
 
-/// Why no sweep of a volume can follow its walls; empty if one can.
-std::optional<Message> why_no_sweep(const Volume& volume, const RunContext& context)
+/// Why no sweep of a sealed volume can follow its walls; empty if one can.
+std::optional<Message> why_no_sweep(const Volume& sealed, const RunContext& context)
 {
-    if (volume.along || volume.volume.full_turn) return std::nullopt;
-    const Volume sealed = close(volume, {}, context);
     const std::size_t ways = sealed.others ? sealed.others->ways.size() : 0;
     for (std::size_t k = 0; k < ways; ++k)
         if (!follow_walls(with_other_sweep(sealed, k).volume, context).refused) return std::nullopt;
@@ -108,7 +106,7 @@ std::optional<Message> why_no_sweep(const Volume& volume, const RunContext& cont
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
                const std::string& whole, bool meshes, const RunContext& context)
 {
-    const Volume& volume = *asked.volume;
+    Volume volume = *asked.volume;
     const bool cuts = may_cut(volume, asked.options.fallback == sweep::Fallback::mixed);
     std::optional<Message> no_ends = volume.no_roles, why = no_ends;
     std::vector<closure::StepPiece> pieces;
@@ -121,19 +119,20 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
             if (!cuts) throw;
             why = no_ends = error.message();
         }
-    } else if (!no_ends && cuts && meshes) {
+    } else if (!no_ends && cuts && meshes && !volume.along && !volume.volume.full_turn) {
+        volume = close(std::move(volume), {}, context);
         why = why_no_sweep(volume, context);
     }
     if (why && meshes) {
         std::vector<closure::StepPiece> swept = swept_pieces(volume, *why, asked.options, context);
         if (!swept.empty()) {
             log_line(context, formatted("note: {} is cut into {} pieces, because {} [{}]", name, swept.size(),
-                                        why->text(), why->code()));
+                                        why->parts().text, why->code()));
             pieces = std::move(swept);
         }
     }
     if (!pieces.empty()) return add_pieces(parts, asked, name, whole, std::move(pieces));
-    parts.push_back({&asked, name, volume, nullptr});
+    parts.push_back({&asked, name, std::move(volume), nullptr});
     if (no_ends) parts.back().volume.no_roles = std::move(no_ends);
 }
 
@@ -250,10 +249,9 @@ Unsuited unsuited(const sweep::ImprintedVolumes& split, std::size_t member, cons
             static_cast<std::size_t>(unlike)};
 }
 
-/// For each volume whose ends the user did not name, choose the sweep that suits its walls and neighbours
-/// best.
-/// Examples: a board on standoffs is swept from the side on which the standoffs are; a square pin between two
-/// plates is swept from plate to plate.
+/// For each volume whose ends the user did not name, choose the sweep that suits it best. Examples: a board
+/// on standoffs is swept from the side on which the standoffs are; a square pin between two plates is swept
+/// from plate to plate.
 void choose_sweeps(Prepared& ready, const RunContext& context)
 {
     const auto may_choose = [&](std::size_t m) {
