@@ -71,15 +71,17 @@ Cavity cavity_of(const Candidate& candidate, const Reading& reading)
     return {word(value, candidate.mouths), candidate.faces, value, reading.enclosed};
 }
 
-/// The faces of a model's bodies that lie in a cavity.
-std::vector<FaceId> faces_inside(const Model& model, const Reading& cavity, const RunContext& context)
+/// The faces of a model's other parts that lie in a cavity.
+std::vector<FaceId> faces_inside(const Model& model, const Candidate& candidate, const Reading& cavity,
+                                 const RunContext& context)
 {
     std::vector<FaceId> faces;
     const OpenVolume& volume = cavity.sealed ? cavity.sealed->volume : cavity.volume;
     const std::vector<FaceId> inside = bodies_inside(model, volume.model, context);
     if (inside.empty()) return faces;
     for (const std::vector<FaceId>& part : connected_parts(model, all_faces(model)))
-        if (std::ranges::find_first_of(part, inside) != part.end())
+        if (std::ranges::find_first_of(part, inside) != part.end() &&
+            std::ranges::find_first_of(part, candidate.faces) == part.end())
             faces.insert(faces.end(), part.begin(), part.end());
     return faces;
 }
@@ -118,7 +120,7 @@ std::vector<Cavity> largest_cavities(const Model& model, std::size_t most, const
         const auto readings = only_reading(model, candidate, context);
         if (!readings) continue;
         Cavity& cavity = result.emplace_back(cavity_of(candidate, readings->front()));
-        const std::vector<FaceId> inside = faces_inside(model, readings->front(), context);
+        const std::vector<FaceId> inside = faces_inside(model, candidate, readings->front(), context);
         cavity.has_bodies = !inside.empty();
         cavity.faces.insert(cavity.faces.end(), inside.begin(), inside.end());
         std::ranges::sort(cavity.faces);

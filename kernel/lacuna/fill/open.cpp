@@ -424,9 +424,10 @@ Volume open_apart(const Model& whole, const RoleRequest& asked, const RunContext
     for (const FaceId face : topology::bodies_inside(whole, volume.volume.model, context))
         log_line(
             context,
-            formatted("note: the body of {} lies inside the volume, and the mesh goes through it; name its "
-                      "faces too if the mesh should leave it out",
-                      topology::entity_of(whole, face)));
+            formatted(
+                "note: {} lies inside the volume, and the mesh goes through it and the faces connected to "
+                "it; name them too if the mesh should leave them out",
+                topology::entity_of(whole, face)));
     if (request.reading > 0 || (request.full_turn && !request.roles))
         volume.roles_by = closure::RolesBy::finding;
     volume.name = request.name;

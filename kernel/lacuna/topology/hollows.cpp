@@ -283,14 +283,14 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
     std::set<int> own;
     for (const Face& face : volume.faces)
         if (face.origin == Origin::given) own.insert(face.tag);
-    std::optional<geometry::FacetTree> tree; // built for the first other shell only: most models have none
+    std::vector<FaceId> others = outer_faces(model);
+    std::erase_if(others, [&](FaceId face) { return own.contains(model[face].tag); });
     std::vector<FaceId> found;
-    for (const std::vector<FaceId>& shell : closed_shells(model)) {
+    if (others.empty()) return found;
+    const geometry::FacetTree tree(volume.points, facets_of(volume, all_faces(volume)), context);
+    for (const std::vector<FaceId>& part : connected_parts(model, others)) {
         check_cancelled(context);
-        const auto is_own = [&](FaceId face) { return own.contains(model[face].tag); };
-        if (std::ranges::any_of(shell, is_own) || is_between_regions(model, shell)) continue;
-        if (!tree) tree.emplace(volume.points, facets_of(volume, all_faces(volume)), context);
-        if (const auto inside = any_inside(model, shell, *tree)) found.push_back(*inside);
+        if (const auto inside = any_inside(model, part, tree)) found.push_back(*inside);
     }
     return found;
 }
