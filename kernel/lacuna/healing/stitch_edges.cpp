@@ -20,6 +20,9 @@ void Stitcher::merge_edges()
         const topology::Edge& edge = model().edges[e];
         if (!loose_.is_gone(EdgeId(e))) groups[std::minmax(edge.from, edge.to)].emplace_back(e);
     }
+    bool moved = false;
+    for (const auto& [ends, group] : groups) moved = take_kept_nodes(group) || moved;
+    if (moved) settle_points();
     std::vector<Bundle> bundles;
     for (auto& [ends, group] : groups) {
         if (group.size() < 2) continue;
@@ -72,6 +75,44 @@ void Stitcher::merge_edges()
             ++report_.edges_merged;
         }
     }
+}
+
+/// Move the points of exact edges that coincide with the edge of a kept mesh to its nodes. The points of an
+/// exact edge only divide its facets, and could not be added to the sides of given quads.
+/// @return  whether points were moved
+bool Stitcher::take_kept_nodes(const std::vector<EdgeId>& group)
+{
+    bool moved = false;
+    for (const EdgeId kept : group) {
+        if (!loose_.keeps_mesh(kept)) continue;
+        for (const EdgeId e : group) {
+            if (loose_.keeps_mesh(e) || model()[e].params.empty()) continue;
+            const std::vector<Index> points = model()[e].points;
+            for (const bool reversed : {false, true}) {
+                if (model()[e].from != model()[e].to && reversed != (model()[kept].from != model()[e].from))
+                    continue;
+                std::vector<Index> nodes = model()[kept].points;
+                std::vector<Vec3> at = track(kept).samples(), own = track(e).samples();
+                if (reversed) {
+                    std::ranges::reverse(nodes);
+                    std::ranges::reverse(at);
+                    std::ranges::reverse(own);
+                }
+                const auto places = track(e).follow(at, tolerance_, context_);
+                if (!places || !track(kept).follow(own, tolerance_, context_)) continue;
+                for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+                    const auto near = std::ranges::min_element(*places, {}, [&](const auto& place) {
+                        return std::abs(place.s - static_cast<double>(i));
+                    });
+                    loose_.join(points[i], nodes[static_cast<std::size_t>(near - places->begin())]);
+                    loose_.edge(e).params[i] = near->param;
+                }
+                moved = true;
+                break;
+            }
+        }
+    }
+    return moved;
 }
 
 std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)

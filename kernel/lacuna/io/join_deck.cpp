@@ -5,6 +5,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/same_corners.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 namespace lacuna::io {
@@ -51,6 +53,7 @@ public:
     {
         match();
         check_patches(gone);
+        if (std::ranges::find(gone, true) == gone.end()) check_cracks();
         std::vector<Index> points(mesh_.nodes.size(), -1);
         for (std::size_t n = 0; n < points.size(); ++n) points[n] = point_of(n);
         join_middles(deck_, mesh_, matched_, kSamePlace * model_.diagonal, scale_, points);
@@ -259,6 +262,60 @@ private:
                 why.remedy("sweep with quads = \"auto\" or \"keep\"; where the quads of both ends differ "
                            "only the source keeps its own: write the mesh without 'with' and tie its "
                            "other end to the deck"));
+        }
+    }
+
+    /// Check that the mesh touches the deck only where they share elements' faces: that no more than one node
+    /// is common where no side is, and that no other quad of the skin lies on the deck.
+    void check_cracks() const
+    {
+        const auto is_alone = [&](Index node) {
+            return known_[index(node)] < 0 && !candidates_[index(node)].empty() &&
+                   by_face_[index(node)][0] < 0 && by_side_[index(node)][0] < 0;
+        };
+        std::set<int> own; // faces on which patches of the mesh lie
+        for (const mesh::SkinPatch& patch : mesh_.patches) own.insert(patch.face);
+        const NodesAt of_deck = nodes_at(deck_, model_.points, kSamePlace * model_.diagonal, scale_);
+        std::vector<Triangle> facets;
+        std::vector<FaceId> face_of_facet;
+        for (const FaceId face : topology::all_faces(model_))
+            for (const Triangle& t : model_[face].triangles)
+                if (!own.contains(model_[face].tag) &&
+                    std::ranges::none_of(t, [&](Index p) { return of_deck.at(index(p)).empty(); })) {
+                    facets.push_back(t);
+                    face_of_facet.push_back(face);
+                }
+        if (facets.empty()) return;
+        const geometry::FacetTree tree(model_.points, facets);
+        const double near = model_.tolerance * model_.tolerance;
+        std::map<FaceId, std::size_t> quads;
+        for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
+            if (matched_[i]) continue;
+            const Quad quad = skin_quad(mesh_, i).nodes;
+            const std::size_t corners = quad[3] < 0 ? 3 : 4;
+            Vec3 centre = Vec3::Zero();
+            for (std::size_t k = 0; k < corners; ++k) centre += mesh_.nodes[index(quad[k])];
+            const auto hit = tree.closest(centre / static_cast<double>(corners), near);
+            if (hit.triangle >= 0) ++quads[face_of_facet[index(hit.triangle)]];
+        }
+        if (!quads.empty()) {
+            const auto [face, count] = *quads.begin();
+            throw InvalidInput(
+                Message("io.not_conformal",
+                        "{} of the mesh's quads lie on {} of the deck, but are no faces of its elements",
+                        found(count), topology::entity_of(model_, face))
+                    .remedy("name that face among the volume's, in place of the one that lies on it, or "
+                            "write the mesh without 'with' and tie it to the deck"));
+        }
+        if (const auto alone = std::ranges::count_if(skin_, is_alone); alone > 1) {
+            const Vec3& p = mesh_.nodes[index(*std::ranges::find_if(skin_, is_alone))];
+            throw InvalidInput(
+                Message("io.not_conformal",
+                        "{} nodes of the mesh lie on nodes of the deck, such as the one at ({}, {}, {}), "
+                        "but no sides of elements there are common",
+                        found(alone), p.x(), p.y(), p.z())
+                    .remedy("name the deck's faces there among the volume's, or write the mesh without "
+                            "'with' and tie it to the deck"));
         }
     }
 

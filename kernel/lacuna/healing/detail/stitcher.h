@@ -59,6 +59,7 @@ private:
     std::map<EdgeId, VertexId> begin_elsewhere(std::map<EdgeId, std::vector<Stop>>& stops);
     void insert_stops(EdgeId e, const std::vector<Stop>& stops, std::optional<VertexId> begin);
     void merge_edges();
+    bool take_kept_nodes(const std::vector<EdgeId>& group);
     std::vector<Bundle> bundles_of(std::vector<EdgeId> group);
     bool try_add(Bundle& bundle, EdgeId e, double tolerance);
     void sew_by_vertices(std::vector<Bundle>& bundles);
