@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- A CAD part on a legacy deck shares the nodes of the deck where the deck's face is named in place of its own;
--- a mesh that only lies on the deck is refused, for the deck would come apart there.
+-- A CAD part on a legacy deck shares the deck's nodes where the deck's face is named in place of its own.
+-- A mesh that only lies on the deck is refused, for the deck would come apart there.
 -- usage: lacuna deck_cad.lua scratch=FOLDER
 local lacuna = require "lacuna"
 local check = dofile((arg[0]:match "^(.*[/\\])" or "") .. "check.lua")

@@ -119,5 +119,20 @@ if has_cad and version then
   local exact = math.pi * (25 ^ 2 - 17 ^ 2) * (80 + 50 * math.pi)
   check.that(math.abs(quality.volume / exact - 1) < 0.01, "jacket: " .. quality.volume)
 
+  -- A domed shell is swept through its thickness between the ends that are named: its rim is a wall.
+  for _, axes in ipairs { { 1, 1, 1 }, { 1, 1, 1.5 }, { 1, 1, 0.7 }, { 1.4, 1, 1 } } do
+    local shell = ("Dilate { {0,0,0}, { %g, %g, %g } } { Volume{1}; }"):format(table.unpack(axes))
+    local model = made("Sphere(1) = { 0, 0, 0, 20, 0, Pi/2 }; Sphere(2) = { 0, 0, 0, 15, 0, Pi/2 };"
+      .. "BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }" .. shell)
+    local by_area = model:faces()
+    table.sort(by_area, function(a, b) return a.area > b.area end)
+    local outer, inner, rim = table.unpack(by_area)
+    local mesh = model:open_volume { source = outer, target = inner, walls = rim }:sweep { size = 3 }
+    local found = mesh:quality()
+    check.that(found.certified and found.min_scaled_jacobian > 0.5, found.min_scaled_jacobian)
+    local whole = 2 / 3 * math.pi * (20 ^ 3 - 15 ^ 3) * axes[1] * axes[2] * axes[3]
+    check.that(math.abs(found.volume / whole - 1) < 0.02, found.volume / whole)
+  end
+
   for _, ending in ipairs { "", ".geo", ".step" } do os.remove(path .. ending) end
 end

@@ -310,11 +310,23 @@ std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<
 
 bool has_round_steps(const OpenVolume& volume, const RunContext& context)
 {
+    std::vector<double> turns;
+    // Walls that meet the whole rim of an end at corners are beside it, so all of it is an end: a dome that
+    // is swept through its thickness.
+    const auto is_at_corner = [&](const EdgeUse& use) {
+        const auto users = volume.model.uses_of_edge(use.edge);
+        return std::abs(turns[use.edge.index()]) > 180 - kCornerBelow &&
+               std::ranges::any_of(
+                   users, [&](const FaceUse& user) { return volume.role[user.face.index()] == Role::wall; });
+    };
     const auto has_cap = [&](Role end) {
         const std::vector<FaceId> faces = volume.faces(end);
         const Vec3 out = area_vector_of(volume.model, faces).stableNormalized();
-        return std::ranges::any_of(faces,
-                                   [&](FaceId face) { return is_end_with_walls(volume.model, face, out); });
+        return std::ranges::any_of(faces, [&](FaceId face) {
+            if (!is_end_with_walls(volume.model, face, out)) return false;
+            if (turns.empty()) turns = concave_turns(volume, context);
+            return !std::ranges::all_of(border_loops(volume.model, face).front().uses, is_at_corner);
+        });
     };
     if (!has_cap(Role::source) && !has_cap(Role::target)) return false;
     OpenVolume divided = volume;

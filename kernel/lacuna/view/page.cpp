@@ -29,7 +29,7 @@ void add_frame(Json& json, const Grid& grid)
     json.member("low", grid.low).member("centre", grid.centre);
     json.member("step", grid.step).member("radius", grid.radius);
     json.key("palette").begin_object();
-    json.member("quality", kQualityRamp).member("order", kOrderRamp).member("kinds", kKindColours);
+    json.member("quality", kQualityRamp).member("order", kOrderRamp).member("kinds", kind_colours());
     const std::pair<const char*, Colour> single[] = {{"given", kGiven},   {"void", kVoid},
                                                      {"inside", kInside}, {"source", kSource},
                                                      {"target", kTarget}, {"walls", kWall}};

@@ -118,7 +118,7 @@ void add_side(std::vector<DrawnSide>& sides, const Hex& hex, const mesh::CellNod
     }
 }
 
-Colour kind_colour(std::size_t i) { return kKindColours[i % std::size(kKindColours)]; }
+Colour kind_colour(std::size_t i) { return kind_colours()[i % kind_colours().size()]; }
 
 /// The data that determines the colours of a region.
 struct Colours {

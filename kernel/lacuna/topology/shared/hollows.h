@@ -55,8 +55,8 @@ std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& 
 std::optional<FaceId> any_inside(const Model& model, const std::vector<FaceId>& faces,
                                  const geometry::FacetTree& tree);
 
-/// One face of each connected part of a model's other faces that lies inside a volume: a body, or a shell that
-/// a mesh of the volume goes through. Faces between two mesh regions are left out.
+/// One face of each connected part of a model's other faces that lies inside a volume, where a mesh of the
+/// volume goes through a body or a shell. Faces between two mesh regions are left out.
 /// @param volume  some faces of the model, with their tags; void faces may be added.
 /// @throw Cancelled
 /// @note  O(facets of the volume) for each face within its bounding box.
