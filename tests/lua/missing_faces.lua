@@ -234,8 +234,26 @@ for what, case in pairs {
   check.that(code ~= 0 or err:find("note: ", 1, true), what .. ": " .. err)
 end
 
--- A member of an assembly is closed once: what closing assumes is noted once.
+-- A member of an assembly is closed once, and so is a volume that no sweep fills: what closing assumes is
+-- noted once.
 do
+  check.write(params.scratch .. "/nozzle.geo", [[SetFactory("OpenCASCADE");
+    Cylinder(1) = {0,0,0, 200,0,0, 43}; Cylinder(2) = {0,0,0, 200,0,0, 40};
+    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+    Cylinder(4) = {30,0,0, 0,0,60, 12};
+    Cylinder(5) = {0,0,0, 200,0,0, 40}; Cylinder(6) = {30,0,0, 0,0,60, 10};
+    BooleanUnion(7) = { Volume{3}; Delete; }{ Volume{4}; Delete; };
+    BooleanDifference(8) = { Volume{7}; Delete; }{ Volume{5, 6}; Delete; };]])
+  check.write(params.scratch .. "/recipe.lua", [[
+    local lacuna = require "lacuna"
+    local model = lacuna.load "nozzle.geo"
+    local faces = model:faces { kind = "cylinder", radius = { 39, 41 } }
+    table.move(model:faces { kind = "cylinder", radius = { 9, 11 } }, 1, 9, #faces + 1, faces)
+    pcall(function() model:open_volume { faces = faces }:sweep { size = 8 } end)
+  ]])
+  local _, _, nozzle = check.run(params.lacuna, params.scratch, { "recipe.lua" })
+  check.equal(select(2, nozzle:gsub("%[closure%.flat_assumed%]", "")), 1, nozzle)
+
   check.write(params.scratch .. "/member.geo", [[SetFactory("OpenCASCADE");
     Box(1) = {0,0,0, 20,20,10}; Cylinder(2) = {10,10,-1, 0,0,20, 3};
     BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])

@@ -299,14 +299,17 @@ void mesh_partitions(PieceMesher& mesher, const Volume& sealed, bool mixed, cons
 /// Mesh a volume that no single sweep fills, in pieces that can be swept. With `Fallback::mixed`, pieces that
 /// cannot be swept are filled with tetrahedra. If the volume cannot be cut into pieces, it is filled with
 /// tetrahedra as a whole.
-/// @param why  why the volume cannot be swept
+/// @param why   why the volume cannot be swept
+/// @param told  whether a sweep that failed has closed the volume and logged what closing assumes
 /// @return  empty if no mesh is found.
-std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, const SweepRequest& request,
-                                      const RunContext& context)
+std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, bool told,
+                                      const SweepRequest& request, const RunContext& context)
 {
     const bool mixed = request.options.fallback == sweep::Fallback::mixed;
     const sweep::SweepOptions options = options_of_pieces(volume, request.options);
-    Volume sealed = sealed_whole(volume, context);
+    RunContext closing = context;
+    if (told) closing.log = nullptr;
+    Volume sealed = sealed_whole(volume, closing);
     PieceMesher mesher(sealed, why, options, static_cast<bool>(request.options.size), context);
     mesh_partitions(mesher, sealed, mixed, context);
     Filled filled;
@@ -331,7 +334,7 @@ std::vector<std::string>& report_of(Filled& filled)
 Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
     if (volume.no_roles) {
-        if (auto filled = sweep_in_pieces(volume, *volume.no_roles, asked, context))
+        if (auto filled = sweep_in_pieces(volume, *volume.no_roles, false, asked, context))
             return std::move(*filled);
         throw InvalidInput(with_tets_as_remedy(*volume.no_roles, asked.options));
     }
@@ -371,7 +374,9 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
         }
         if (next == ways) {
             std::optional<Filled> filled;
-            if (cuts) filled = sweep_in_pieces(volume, *why, asked, context);
+            if (cuts)
+                filled = sweep_in_pieces(volume, *why, volume.closure || !has_pieces(volume, context), asked,
+                                         context);
             if (!filled) std::rethrow_exception(first);
             std::vector<std::string>& report = report_of(*filled);
             report.insert(report.begin(), failed.begin(), failed.end());
