@@ -358,6 +358,18 @@ bool covers_itself(const std::vector<Triangle>& triangles)
     return std::ranges::adjacent_find(sides) != sides.end();
 }
 
+/// Whether the file orients a face against the normal of its parameters. The largest facet is far from poles.
+bool is_reversed(int face, const std::vector<std::array<Vec2, 3>>& facets)
+{
+    const auto twice_area = [](const std::array<Vec2, 3>& t) {
+        return (t[1] - t[0]).x() * (t[2] - t[0]).y() - (t[1] - t[0]).y() * (t[2] - t[0]).x();
+    };
+    const std::array<Vec2, 3>& widest = *std::ranges::max_element(facets, {}, twice_area);
+    const Vec2 middle = (widest[0] + widest[1] + widest[2]) / 3;
+    const SurfaceFrame frame = surface_frames(face, {middle}).front();
+    return frame.du.cross(frame.dv).dot(surface_normal(face, middle)) < 0;
+}
+
 } // namespace
 
 std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo& face,
@@ -403,6 +415,10 @@ std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo&
         facets.uv.push_back(uv);
     }
     if (facets.triangles.empty() || covers_itself(facets.triangles)) return std::nullopt;
+    if (is_reversed(face.tag, facets.uv)) {
+        for (Triangle& t : facets.triangles) std::swap(t[1], t[2]);
+        for (std::array<Vec2, 3>& uv : facets.uv) std::swap(uv[1], uv[2]);
+    }
     return facets;
 }
 

@@ -271,6 +271,13 @@ std::vector<SurfaceFrame> surface_frames(int tag, const std::vector<Vec2>& uv)
     return frames;
 }
 
+Vec3 surface_normal(int tag, const Vec2& uv)
+{
+    std::vector<double> normal;
+    gmsh::model::getNormal(tag, {uv.x(), uv.y()}, normal);
+    return unflat<3>(normal).front();
+}
+
 std::vector<SecondDerivatives> surface_second(int tag, const std::vector<Vec2>& uv)
 {
     const std::vector<Vec3> d = evaluated(gmsh::model::getSecondDerivative, 2, tag, flat(uv));

@@ -75,6 +75,9 @@ struct SurfaceFrame {
 };
 std::vector<SurfaceFrame> surface_frames(int tag, const std::vector<Vec2>& uv);
 
+/// The normal on the side to which the file orients a face; `du` × `dv` may point to the other side.
+Vec3 surface_normal(int tag, const Vec2& uv);
+
 struct SecondDerivatives {
     Vec3 uu, vv, uv;
 };

@@ -94,6 +94,19 @@ bool crosses_inside(const Model& model, const std::vector<FaceId>& faces, const 
     });
 }
 
+/// Whether a rim of some faces lies in the plane of a loop and encloses it.
+bool have_rim_around(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane,
+                     const std::vector<Vec3>& loop)
+{
+    return std::ranges::any_of(rims(model, faces), [&](const Rim& rim) {
+        const std::vector<Vec3> places = loop_places(model, rim.uses);
+        return std::ranges::all_of(
+                   places,
+                   [&](const Vec3& p) { return std::abs(geometry::height(plane, p)) <= model.tolerance; }) &&
+               geometry::lies_inside(flat_places(plane, places), geometry::to_plane(plane, loop.front()));
+    });
+}
+
 /// The faces of a part that lie in a plane.
 std::vector<FaceId> faces_in(const Model& model, const std::vector<FaceId>& part,
                              const geometry::Plane& plane)
@@ -261,7 +274,8 @@ std::optional<Overhang> find_overhang(const Model& model, const std::vector<Face
                     out.insert(out.end(), part.begin(), part.end());
                 return true;
             });
-            if (is_mouth && !out.empty() && !is_full(model, parts[around], loop, *plane))
+            if (is_mouth && !out.empty() && !have_rim_around(model, faces, *plane, loop) &&
+                !is_full(model, parts[around], loop, *plane))
                 return Overhang{*plane, std::move(out), face_beside(model, parts[around], rim)};
         }
     return std::nullopt;

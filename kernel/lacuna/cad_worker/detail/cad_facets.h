@@ -15,7 +15,7 @@ namespace lacuna::cad_worker {
 /// points.
 struct CadFacets {
     std::vector<Vec3> added;             ///< [file length]
-    std::vector<Triangle> triangles;     ///< counter-clockwise in the parameter plane
+    std::vector<Triangle> triangles;     ///< counter-clockwise seen from the file's side of the face
     std::vector<std::array<Vec2, 3>> uv; ///< parameters of the corners; on a seam, those on the triangle's
                                          ///< side of the seam
     ParameterBox box;
