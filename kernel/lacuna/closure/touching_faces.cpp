@@ -135,9 +135,10 @@ public:
     /// The splits of a loop into two faces, of which at least one is flat. The edge between them is a line or
     /// a copy of the opposite side; only if no such edge fits is it the one in which a plane meets a round
     /// wall.
-    [[nodiscard]] std::vector<FaceSplit> in_two(const FaceChain& loop) const
+    /// @param bent_sharply  whether a face may have a crease between copied sides, as several faces have.
+    [[nodiscard]] std::vector<FaceSplit> in_two(const FaceChain& loop, bool bent_sharply = false) const
     {
-        std::vector<FaceSplit> found = with_copied_edge(loop);
+        std::vector<FaceSplit> found = with_copied_edge(loop, bent_sharply);
         return found.empty() ? with_round_edge(loop) : found;
     }
 
@@ -152,7 +153,7 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<FaceSplit> with_copied_edge(const FaceChain& loop) const
+    [[nodiscard]] std::vector<FaceSplit> with_copied_edge(const FaceChain& loop, bool bent_sharply) const
     {
         std::vector<FaceSplit> found;
         each_split(loop, [&](const FaceChain& flat, const FaceChain& rest, bool again) {
@@ -162,7 +163,8 @@ public:
             const bool told = flat_there && (count_turns(points_along(flat)) > 1 ||
                                              (both && count_turns(points_along(rest)) > 1));
             const FaceSide chord = across(rest);
-            const auto image = both ? std::nullopt : image_of_opposite(rest);
+            const auto image = both || (!bent_sharply && has_crease(rest)) ? std::nullopt
+                                                                           : image_of_opposite(rest);
             if (image && tells_face(closed(rest, *image)) && tells_face(closed(flat, turned(*image))))
                 add(found, {closed(flat, turned(*image)), closed(rest, *image)});
             else if ((told || (both && loop.size() == 4)) &&
@@ -337,6 +339,17 @@ private:
         return closure::tells_face(model, loop, context_);
     }
 
+    /// Whether a run turns between its inner sides: sharply, or from one straight side to another.
+    [[nodiscard]] static bool has_crease(const FaceChain& run)
+    {
+        for (std::size_t k = 1; k + 2 < run.size(); ++k) {
+            const double turn = geometry::angle_between(end_of({run[k]}), start_of({run[k + 1]}));
+            const bool straight = count_turns(run[k].points) == 0 && count_turns(run[k + 1].points) == 0;
+            if (turn > (straight ? kVisible : kCreaseAngle * kDegree)) return true;
+        }
+        return false;
+    }
+
     /// A void edge from the end of a run to its start: a shifted copy of the run without its first and last
     /// side. Empty unless these two sides are straight, parallel and equally long.
     [[nodiscard]] static std::optional<FaceSide> image_of_opposite(const FaceChain& run)
@@ -476,6 +489,7 @@ std::optional<std::vector<Loop>> split_touching(Model& model, const Rim& rim, co
     const TouchingFaces faces(model, context);
     std::vector<FaceSplit> splits = faces.in_two(loop);
     if (splits.empty()) splits = faces.in_three(loop);
+    if (splits.empty()) splits = faces.in_two(loop, true);
     if (splits.size() != 1) return std::nullopt;
     return add_split(model, splits.front());
 }
