@@ -101,7 +101,25 @@ for _ = 1, whole and 6 or 1 do
       .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}"
   local trimmed = ("Cylinder(1)={0,0,0,0,0,%g,%g}; Box(2)={%g,-9,-1,9,18,19};"):format(top, r2, 0.4 * r2)
       .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}"
+  local drilled = ("Cylinder(1)={0,0,0,0,0,%g,%g}; Cylinder(2)={0,0,%g,0,0,3,%g};"):format(h, r2, h, r1)
+      .. "BooleanUnion(3)={Volume{1};Delete;}{Volume{2};Delete;};"
+      .. ("Cylinder(4)={-9,0,%g,18,0,0,%g};"):format(h / 2, 0.3 * h)
+      .. "BooleanDifference{Volume{3};Delete;}{Volume{4};Delete;}"
+  local bored = ("Cylinder(9)={0,0,-1,0,0,9,%g};"):format(0.6 * r1)
+  local bored_lever = lever:gsub("Union", "Union(8)=") .. ";" .. bored
+      .. "BooleanDifference{Volume{8};Delete;}{Volume{9};Delete;}"
+  local bored_block = "Box(1)={-1.5,-1.5,0,4,4,4};" .. bored
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{9};Delete;}"
+  local bored_wedge = ("Wedge(1)={-1.5,-1.5,0,12,4,4,3}; Cylinder(9)={0,-9,2,0,18,0,%g};"):format(0.6 * r1)
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{9};Delete;}"
   for _, case in ipairs {
+    { "wall of a drilled shaft and its shoulder", drilled, { { 0, r2, h / 2 }, { 0, (r1 + r2) / 2, h } },
+      true },
+    { "wall that an arm leaves and its top", bored_lever, { { -r2, 0, h / 2 }, { 0, r2 / 2, h } }, true },
+    { "three faces at a corner, one with a bore", bored_block,
+      { { 2.5, 0, 2 }, { 0, 2.5, 2 }, { 2, 2, 4 } } },
+    { "slanted faces at a corner, one with a bore", bored_wedge,
+      { { 6, 0.5, 2 }, { -1, 2.5, 0.2 }, { 0, 1.5, 4 } } },
     { "wall and an end of a shaft with a long flat", trimmed, { { -r2, 0, top / 2 }, { 0, 0, top } } },
     { "wall of a cone with a flat", tapered, { { -(r2 + r3) / 2, 0, top / 2 } }, false },
     { "bore of an angle", angle, { { 5 + r1, 2.5, r1 / 2 } } },

@@ -122,6 +122,41 @@ std::optional<Circle> circle_through(const std::vector<Vec3>& places, const geom
     return circle;
 }
 
+/// Consecutive sides of a rim, each with both of its ends.
+using Sides = std::vector<std::vector<Vec3>>;
+
+bool is_one_line(const std::vector<Vec3>& side)
+{
+    const Vec3 way = (side.back() - side.front()).stableNormalized();
+    return std::ranges::all_of(side, [&](const Vec3& p) {
+        return (p - side.front()).cross(way).norm() <= kFileAccuracy * geometry::length(side);
+    });
+}
+
+/// The circles across the axes that a round wall along some sides may have: that of each side that is an arc
+/// about the axis, and those about the directions of the straight sides.
+std::vector<Circle> circles_across(const Sides& sides, const std::vector<Vec3>& places)
+{
+    std::vector<Circle> arcs, across;
+    for (const std::vector<Vec3>& side : sides) {
+        if (is_one_line(side)) {
+            const geometry::Plane plane = geometry::plane_across(side.front(),
+                                                                 (side.back() - side.front()).normalized());
+            std::vector<Vec3> image;
+            for (const Vec3& p : places) image.push_back(p - geometry::height(plane, p) * plane.normal);
+            if (auto circle = circle_through(image, plane)) across.push_back(*circle);
+        } else if (side.size() > 3) { // any three points lie on a circle
+            const auto circle = circle_through(side, geometry::newell_plane({&side, 1}));
+            if (circle && std::ranges::all_of(side, [&](const Vec3& p) {
+                    return std::abs(geometry::height(circle->base, p)) <= kVisible * circle->radius;
+                }))
+                arcs.push_back(*circle);
+        }
+    }
+    arcs.insert(arcs.end(), across.begin(), across.end());
+    return arcs;
+}
+
 /// A rim that runs once round the axis of a circle at its radius; empty for any other rim.
 std::optional<RoundRim> round_rim(const Model& model, const Rim& rim, std::size_t loop, const Circle& circle)
 {
@@ -148,6 +183,16 @@ std::optional<RoundRim> round_rim(const Model& model, const Rim& rim, std::size_
     const std::vector<Vec3> places = loop_places(model, rim.uses);
     const auto circle = circle_through(places, geometry::newell_plane({&places, 1}));
     return circle ? round_rim(model, rim, loop, *circle) : std::nullopt;
+}
+
+/// A rim that is not flat and runs once round the axis of one of its arcs; empty for any other rim.
+std::optional<RoundRim> round_rim_along_arc(const Model& model, const Rim& rim, std::size_t loop)
+{
+    Sides sides;
+    for (const EdgeUse& use : rim.uses) sides.push_back(use_places(model, use));
+    for (const Circle& circle : circles_across(sides, loop_places(model, rim.uses)))
+        if (auto round = round_rim(model, rim, loop, circle)) return round;
+    return std::nullopt;
 }
 
 /// Whether a wall between two rims may be missing: they have one axis, and no given face at them continues
@@ -413,6 +458,64 @@ bool add_tube(FlatFilling& filling, const RoundRim& from, const RoundRim& to, co
     return true;
 }
 
+/// The nearest flat rim across the axis of a round rim, on one side of it, whose given faces run along the
+/// axis, and which lies inside or around the image of the round rim in its plane. Empty if there is none.
+std::optional<geometry::Plane> plane_beyond(const Model& model, const std::vector<Rim>& loops,
+                                            const std::set<std::size_t>& joined, const RoundRim& rim)
+{
+    const std::vector<Vec3> own = loop_places(model, loops[rim.loop].uses);
+    std::optional<geometry::Plane> nearest;
+    double distance = kInfinity;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        if (l == rim.loop || joined.contains(l) || !is_flat(model, loops[l])) continue;
+        const std::vector<Vec3> places = loop_places(model, loops[l].uses);
+        const geometry::Plane plane = geometry::newell_plane({&places, 1});
+        const auto height = [&](const Vec3& p) { return geometry::height(plane, p); };
+        const auto [low, high] = std::ranges::minmax(own, {}, height);
+        const double apart = std::max(height(low), -height(high)); // negative if the plane crosses the rim
+        const auto is_inside = [&](const Vec3& p) { return distance_to_axis(rim.base, p) < rim.radius; };
+        const auto inside = std::ranges::count_if(places, is_inside);
+        const bool along = std::ranges::all_of(loops[l].uses, [&](const EdgeUse& use) {
+            return std::ranges::all_of(model.uses_of_edge(use.edge), [&](const FaceUse& by) {
+                return std::ranges::all_of(facet_normals(model, by.face).normals, [&](const Vec3& n) {
+                    return std::abs(n.dot(rim.base.normal)) <= kParallel;
+                });
+            });
+        });
+        if (!along || plane.normal.cross(rim.base.normal).norm() > kParallel || apart <= model.tolerance ||
+            apart >= distance || (inside > 0 && inside < std::ssize(places)))
+            continue;
+        nearest = plane;
+        distance = apart;
+    }
+    return nearest;
+}
+
+/// The image of a round rim in a plane across its axis. Empty if the rim turns back on its way.
+std::vector<Vec3> image_in(const RoundRim& rim, const std::vector<Vec3>& places, const geometry::Plane& plane)
+{
+    std::vector<Vec3> image;
+    const double sense = turn_round(rim.base, places);
+    for (const Vec3& p : places) {
+        const double turn = image.empty() ? sense : turn_along(rim.base, {image.back(), p});
+        if (std::abs(turn) <= kAlikeSizes) continue; // along the axis
+        if (turn * sense < 0) return {};
+        image.push_back(p - geometry::height(plane, p) * plane.normal);
+    }
+    if (std::abs(turn_along(rim.base, {image.back(), image.front()})) <= kAlikeSizes) image.pop_back();
+    return image;
+}
+
+/// Add a closed void edge through some places.
+Rim add_closed_edge(Model& model, const std::vector<Vec3>& places)
+{
+    ModelBuilder builder(std::move(model));
+    builder.points.push_back(places.front());
+    const VertexId start = builder.add_void_vertex(static_cast<Index>(builder.points.size()) - 1);
+    model = std::move(builder).finish();
+    return {{{add_void_edge_through(model, start, start, {places.begin() + 1, places.end()}), false}}};
+}
+
 /// A surface of revolution with a straight section: the distance from the axis is linear in the height.
 struct RoundWall {
     geometry::Plane base; ///< plane normal to the axis
@@ -421,41 +524,6 @@ struct RoundWall {
 
     [[nodiscard]] double radius_at(double height) const { return radius + slope * height; }
 };
-
-/// Consecutive sides of a rim, each with both of its ends.
-using Sides = std::vector<std::vector<Vec3>>;
-
-bool is_one_line(const std::vector<Vec3>& side)
-{
-    const Vec3 way = (side.back() - side.front()).stableNormalized();
-    return std::ranges::all_of(side, [&](const Vec3& p) {
-        return (p - side.front()).cross(way).norm() <= kFileAccuracy * geometry::length(side);
-    });
-}
-
-/// The circles across the axes that a round wall along some sides may have: that of each side that is an arc
-/// about the axis, and those about the directions of the straight sides.
-std::vector<Circle> circles_across(const Sides& sides, const std::vector<Vec3>& places)
-{
-    std::vector<Circle> arcs, across;
-    for (const std::vector<Vec3>& side : sides) {
-        if (is_one_line(side)) {
-            const geometry::Plane plane = geometry::plane_across(side.front(),
-                                                                 (side.back() - side.front()).normalized());
-            std::vector<Vec3> image;
-            for (const Vec3& p : places) image.push_back(p - geometry::height(plane, p) * plane.normal);
-            if (auto circle = circle_through(image, plane)) across.push_back(*circle);
-        } else if (side.size() > 3) { // any three points lie on a circle
-            const auto circle = circle_through(side, geometry::newell_plane({&side, 1}));
-            if (circle && std::ranges::all_of(side, [&](const Vec3& p) {
-                    return std::abs(geometry::height(circle->base, p)) <= kVisible * circle->radius;
-                }))
-                arcs.push_back(*circle);
-        }
-    }
-    arcs.insert(arcs.end(), across.begin(), across.end());
-    return arcs;
-}
 
 /// Mean length of the segments of the sides that are not straight [model length].
 double bent_step(const Sides& sides)
@@ -643,26 +711,31 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
             return round_rim(model, loops[l], l, Circle{first.base, first.radius});
         });
     });
+    for (const std::size_t l : other)
+        if (const auto rim = round_rim_along_arc(model, loops[l], l)) groups.push_back({*rim});
     std::vector<std::size_t> part(model.faces.size());
     const std::vector<std::vector<FaceId>> parts = connected_parts(model, all_faces(model));
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const FaceId face : parts[p]) part[face.index()] = p;
     std::set<std::size_t> joined;
+    const auto holes_between = [&](const RoundRim& from, std::vector<Vec3> places) {
+        std::pair<std::vector<Loop>, std::vector<std::size_t>> holes;
+        std::ranges::copy(loop_places(model, loops[from.loop].uses), std::back_inserter(places));
+        for (std::size_t l = 0; l < loops.size(); ++l) {
+            if (joined.contains(l) || !is_hole_between(model, loops[l], from, places)) continue;
+            holes.first.push_back({loops[l].uses});
+            holes.second.push_back(l);
+        }
+        return holes;
+    };
     for (const std::vector<RoundRim>& group : groups) {
         for (const auto& [from, to] : pairs_of(group, part)) {
             check_cancelled(context);
-            std::vector<Loop> holes;
-            std::set<std::size_t> taken{from.loop, to.loop};
-            std::vector<Vec3> places = loop_places(model, loops[from.loop].uses);
-            std::ranges::copy(loop_places(model, loops[to.loop].uses), std::back_inserter(places));
-            for (std::size_t l = 0; l < loops.size(); ++l) {
-                if (joined.contains(l) || !is_hole_between(model, loops[l], from, places)) continue;
-                holes.push_back({loops[l].uses});
-                taken.insert(l);
-            }
+            const auto [holes, taken] = holes_between(from, loop_places(model, loops[to.loop].uses));
             if (!add_tube(filling, from, to, loops[from.loop].uses, loops[to.loop].uses, holes, context))
                 continue;
-            joined.merge(taken);
+            joined.insert(taken.begin(), taken.end());
+            joined.insert({from.loop, to.loop});
             const std::vector<FaceId> faces{*from.beside.begin(), *to.beside.begin()};
             assume(filling.closure,
                    {"closure.round_wall", "the rims of {} are joined by a straight round wall",
@@ -670,7 +743,36 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
                    from.needs_wall && to.needs_wall && holes.empty() ? 0 : 1, Assumed::round_wall);
         }
     }
-    std::vector<Rim> left;
+    std::vector<Rim> images;
+    for (const std::vector<RoundRim>& group : groups) {
+        for (const RoundRim& rim : group) {
+            const auto plane = rim.needs_wall && !joined.contains(rim.loop)
+                                   ? plane_beyond(model, loops, joined, rim)
+                                   : std::nullopt;
+            const std::vector<Vec3> image =
+                plane ? image_in(rim, loop_places(model, loops[rim.loop].uses), *plane) : std::vector<Vec3>();
+            if (image.empty()) continue;
+            const auto [holes, taken] = holes_between(rim, image);
+            // add_straight_walls() adds the walls of flat rims, with edges from vertex to vertex.
+            if (rim.flat && holes.empty()) continue;
+            const Rim top = add_closed_edge(filling.volume.model, image);
+            RoundRim end = rim;
+            end.base.origin -= geometry::height(*plane, end.base.origin) * plane->normal;
+            end.flat = true;
+            if (!add_tube(filling, rim, end, loops[rim.loop].uses, top.uses, holes, context)) continue;
+            filling.closure.void_edges.push_back(top.uses.front().edge);
+            joined.insert(taken.begin(), taken.end());
+            joined.insert(rim.loop);
+            images.push_back(top);
+            assume(filling.closure,
+                   {"closure.straight_wall",
+                    "the missing wall at the rim of {} is assumed to be straight, up to the plane of the "
+                    "next flat rim",
+                    entity_of(model, *rim.beside.begin())},
+                   1, Assumed::straight);
+        }
+    }
+    std::vector<Rim> left = std::move(images);
     for (std::size_t l = 0; l < loops.size(); ++l)
         if (!joined.contains(l)) left.push_back(std::move(loops[l]));
     return left;
