@@ -364,4 +364,38 @@ for _, radius in ipairs { 6, 10, 14, 18 } do
   check.near(mesh.fidelity.volume / (math.pi * 20 ^ 2 * 120), 1, 0.03)
 end
 
+-- --- windows turned by 45 degrees in a bore, and features side by side ------------------------------------
+
+--- A body is meshed by hexahedra of its volume.
+local function is_meshed(geo, volume, word)
+  local file = params.scratch .. "/body.geo"
+  check.write(file, 'SetFactory("OpenCASCADE");\n' .. geo .. "\n")
+  local mesh = lacuna.load(file):open_volume {}:sweep { size = 4 }
+  local quality = mesh:quality()
+  check.that(quality.certified and mesh.tets == 0 and mesh.wedges == 0, word)
+  check.that(quality.min_scaled_jacobian > 0.3, ("%s: %.3f"):format(word, quality.min_scaled_jacobian))
+  check.near(quality.volume / volume, 1, 0.02)
+end
+
+-- The plane through opposite edges of a window bisects the angles at both.
+for number = 1, check.whole and 20 or 3 do
+  local outer, inner, high, side = random(22, 28), random(14, 17), random(50, 70), random(9, 13)
+  local tube, both = number % 2 == 1, number % 4 > 1
+  local half, hole, steps = side / math.sqrt(2), 0, 400
+  for i = 1, steps do
+    local y = half * (i - 0.5) / steps
+    local reach = (tube and math.sqrt(outer ^ 2 - y ^ 2) or outer) - math.sqrt(inner ^ 2 - y ^ 2)
+    hole = hole + 4 * reach * (half - y) * half / steps
+  end
+  local stock = tube and ("Cylinder(1) = {0, 0, 0, 0, 0, %.15g, %.15g};"):format(high, outer)
+    or ("Box(1) = {%.15g, %.15g, 0, %.15g, %.15g, %.15g};"):format(-outer, -outer, 2 * outer, 2 * outer, high)
+  local geo = stock .. cylinder(2, "0, 0, -1", ("0, 0, %.15g"):format(high + 2), inner)
+    .. ("Box(3) = {%g, %.15g, %.15g, %g, %.15g, %.15g};"):format(both and -60 or 0, -side / 2,
+      (high - side) / 2, both and 120 or 60, side, side)
+    .. ("Rotate { {1, 0, 0}, {0, 0, %.15g}, Pi/4 } { Volume{3}; }"):format(high / 2)
+    .. combined("Difference", "2,3")
+  is_meshed(geo, (tube and math.pi * outer ^ 2 or 4 * outer ^ 2) * high - math.pi * inner ^ 2 * high
+    - (both and 2 or 1) * hole, (tube and "tube" or "block") .. (both and ", both sides" or ", one side"))
+end
+
 check.done()

@@ -135,6 +135,7 @@ public:
             planes_.push_back({between_[b].second, {}});
         add_through_axes();
         add_at_bent_rims();
+        add_bisectors();
         return std::move(planes_);
     }
 
@@ -335,6 +336,29 @@ private:
                 add_new(geometry::plane_across(centre, normal.x() * u + normal.y() * v));
             }
         }
+    }
+
+    /// Add the planes that bisect the angles at two or more concave edges between flat faces.
+    void add_bisectors()
+    {
+        std::vector<CutPlane> found;
+        for (const Bend& bend : bends_) {
+            if (!bend.edge.valid() || !straight_along(model_, bend.edge)) continue;
+            const std::span<const FaceUse> uses = model_.uses_of_edge(bend.edge);
+            const auto one = plane_of(model_, uses[0].face), other = plane_of(model_, uses[1].face);
+            if (!one || !other) continue;
+            const geometry::Plane plane = geometry::plane_across(model_.at(model_[bend.edge].points.front()),
+                                                                 (one->normal - other->normal).normalized());
+            const auto known = std::ranges::find_if(found, [&](const CutPlane& own) {
+                return are_parallel(own.plane.normal, plane.normal) && is_in_plane(bend.edge, own.plane);
+            });
+            if (known != found.end())
+                known->edges.push_back(bend.edge);
+            else
+                found.push_back({plane, {bend.edge}});
+        }
+        std::ranges::copy_if(found, std::back_inserter(planes_),
+                             [](const CutPlane& plane) { return plane.edges.size() > 1; });
     }
 
     void add_new(const geometry::Plane& plane)

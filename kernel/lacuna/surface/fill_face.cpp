@@ -7,6 +7,7 @@
 #include <lacuna/geometry/shared/flatten.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/tips.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/surface/detail/fine_facets.h>
 #include <lacuna/surface/detail/plane_loops.h>
@@ -52,6 +53,8 @@ public:
 
     [[nodiscard]] static std::vector<Vec2> tips() { return {}; }
 
+    static void require_one_to_one(std::span<const Vec2> /*flat*/, const Loops& /*loops*/) {}
+
     [[nodiscard]] std::vector<Vec3> lift(std::span<const Vec2> points) const
     {
         std::vector<Vec3> lifted;
@@ -79,7 +82,7 @@ geometry::Flattened laid_flat(const Model& model, FaceId face, const FineFacets&
 try {
     return geometry::flatten(fine.points, fine.triangles, {.settled = kVisible});
 } catch (const InvalidInput& error) { // the error names facets but not the face
-    throw InvalidInput(
+    throw NotSweepable(
         not_flat(model, face, "are in several parts, closed or have a handle").attempt(error.message()));
 }
 
@@ -87,7 +90,10 @@ try {
 class FlatFace {
 public:
     FlatFace(const Model& model, FaceId face, const SizeField& size)
-        : model_(model), fine_(fine_facets(model, face, size)), flat_(laid_flat(model, face, fine_))
+        : model_(model),
+          face_(face),
+          fine_(fine_facets(model, face, size)),
+          flat_(laid_flat(model, face, fine_))
     {
         if (flat_.folded) { // retry with the original facets, which are fewer and fold less
             fine_ = fine_facets(model, face, size, {.rounds = 0});
@@ -125,6 +131,17 @@ public:
             by += weight * stretch_[static_cast<std::size_t>(f[k])];
         }
         return size(on_face) * by;
+    }
+
+    /// @param flat, loops  the rim's nodes in the plane, the outer loop first
+    /// @throw NotSweepable  the chords between the nodes cross, or loops are not nested, as where a hole in
+    ///        the side of a tube becomes a crescent
+    void require_one_to_one(std::span<const Vec2> flat, const Loops& loops) const
+    {
+        bool fits = !geometry::find_crossing(flat, loops);
+        for (std::size_t l = 0; l < loops.size(); ++l)
+            fits = fits && (signed_area(flat, loops[l]) > 0) == (l == 0);
+        if (!fits) throw NotSweepable(not_flat(model_, face_, "fold"));
     }
 
     /// Positions of the face's tips in the plane.
@@ -185,6 +202,7 @@ private:
     }
 
     const Model& model_;
+    FaceId face_;
     FineFacets fine_;
     geometry::Flattened flat_;
     geometry::PlanarLocator locator_;
@@ -226,6 +244,7 @@ FaceQuads fill_flat(const Image& image, std::span<const RimNode> rim, Loops loop
     };
     std::vector<Vec2> flat = image.lay(rim);
     sort_outer_first(flat, loops);
+    image.require_one_to_one(flat, loops);
     const quads::PlanarRegion region{std::move(flat), std::move(loops), there(sizes.edge), there(sizes.row)};
     auto [filling, finding] = rows == nullptr ? quads::RowsFilling{mesher(region, context), {}}
                                               : quads::fill_with_rows(region, *rows, mesher, context);
