@@ -398,4 +398,17 @@ for number = 1, check.whole and 20 or 3 do
     - (both and 2 or 1) * hole, (tube and "tube" or "block") .. (both and ", both sides" or ", one side"))
 end
 
+-- A counterbored hole and a blind bore from the side can be cut apart by two planes. One of the planes leaves
+-- pieces that cannot be meshed together: it is an end of one piece and a wall of others.
+for number = 1, check.whole and 10 or 2 do
+  local x, y, z, reach = random(60, 90), random(45, 60), random(28, 40), random(4, 6)
+  if number == 1 then x, y, z, reach = 70, 51.5, 30.5, 4.6 end
+  local geo = ("Box(1) = {0, 0, 0, %.15g, %.15g, %.15g};"):format(x, y, z)
+    .. cylinder(2, row { x * .2, y * .72, -1 }, row { 0, 0, z + 2 }, 4)
+    .. cylinder(3, row { x * .2, y * .72, z * .6 }, row { 0, 0, z }, 7)
+    .. cylinder(4, row { x * .5, -1, z * .5 }, row { 0, 1 + y * .5, 0 }, reach)
+    .. combined("Difference", "2,3,4")
+  is_meshed(geo, x * y * z - math.pi * (16 * z * .6 + 49 * z * .4 + reach ^ 2 * y * .5), "counterbore")
+end
+
 check.done()

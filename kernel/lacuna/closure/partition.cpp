@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/partition.h>
 
+#include <lacuna/closure/close.h>
 #include <lacuna/closure/detail/cut_planes.h>
 #include <lacuna/closure/detail/midpoint.h>
 #include <lacuna/closure/detail/pieces.h>
@@ -12,6 +13,7 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/closure/shared/steps.h>
+
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
@@ -310,8 +312,8 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, st
 
 /// The cuts that reduce the length to cut (`length_to_cut()`) of a piece, best first. Pieces that have ends
 /// need no further cut, so their length is not counted. A cut into two pieces that both have ends cannot be
-/// improved on and is returned alone. Of the cuts with the same remaining length, the same number of pieces
-/// and the same number of pieces without ends, only one is returned. Example: cuts by coplanar faces.
+/// improved on and is returned alone. Of cuts into pieces of the same volumes, only one is returned.
+/// Examples: cuts by coplanar faces, and cuts that are images of each other.
 std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                 const CanSweep& can_sweep, const RunContext& context)
 {
@@ -337,12 +339,26 @@ std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, s
     std::ranges::stable_sort(cuts, {}, [&](const CutTried& cut) {
         return std::tuple(cut.left, without_ends(cut), cut.parts.size());
     });
-    const auto alike = [&](const CutTried& a, const CutTried& b) {
-        return b.left - a.left <= kFileAccuracy * part.left && without_ends(a) == without_ends(b) &&
-               a.parts.size() == b.parts.size();
+    const auto volumes_of = [](const CutTried& cut) {
+        std::vector<double> volumes;
+        for (const CutPart& own : cut.parts) volumes.push_back(enclosed_volume(own.piece.volume));
+        std::ranges::sort(volumes);
+        return volumes;
     };
-    cuts.erase(std::ranges::unique(cuts, alike).begin(), cuts.end());
-    return cuts;
+    std::vector<CutTried> unlike;
+    std::vector<std::vector<double>> known;
+    for (CutTried& cut : cuts) {
+        std::vector<double> own = volumes_of(cut);
+        if (std::ranges::any_of(known, [&](const std::vector<double>& other) {
+                return std::ranges::equal(own, other, [](double a, double b) {
+                    return std::abs(a - b) <= kFileAccuracy * std::max(a, b);
+                });
+            }))
+            continue;
+        known.push_back(std::move(own));
+        unlike.push_back(std::move(cut));
+    }
+    return unlike;
 }
 
 /// Cuts a volume and then its parts, as long as a cut reduces the length to cut in parts without ends.
