@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/skin_patches.h>
 
+#include <lacuna/core/error.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/sweep/shared/face_patches.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
@@ -53,8 +55,15 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
         }
     }
     std::vector<RimPosition> along_rim;
-    for (const Segment& side : mesh.rim)
-        along_rim.push_back(places.at({std::min(side[0], side[1]), std::max(side[0], side[1])}));
+    for (const Segment& side : mesh.rim) {
+        const auto place = places.find({std::min(side[0], side[1]), std::max(side[0], side[1])});
+        if (place == places.end())
+            throw NotSweepable(Message("sweep.source_gap",
+                                       "the quads on the faces of the source leave a gap near {}",
+                                       place_with_digits(source.quads.nodes[index(side[0])], 4))
+                                   .remedy("use a smaller 'size'"));
+        along_rim.push_back(place->second);
+    }
     for (int layer = 0; layer < mesh.layers; ++layer) {
         for (const RimPosition& place : along_rim) {
             const std::size_t n = source.links[place.link].source_at.size();
