@@ -367,10 +367,10 @@ end
 -- --- windows turned by 45 degrees in a bore, and features side by side ------------------------------------
 
 --- A body is meshed by hexahedra of its volume.
-local function is_meshed(geo, volume, word)
+local function is_meshed(geo, volume, size, word)
   local file = params.scratch .. "/body.geo"
   check.write(file, 'SetFactory("OpenCASCADE");\n' .. geo .. "\n")
-  local mesh = lacuna.load(file):open_volume {}:sweep { size = 4 }
+  local mesh = lacuna.load(file):open_volume {}:sweep { size = size }
   local quality = mesh:quality()
   check.that(quality.certified and mesh.tets == 0 and mesh.wedges == 0, word)
   check.that(quality.min_scaled_jacobian > 0.3, ("%s: %.3f"):format(word, quality.min_scaled_jacobian))
@@ -395,7 +395,7 @@ for number = 1, check.whole and 20 or 3 do
     .. ("Rotate { {1, 0, 0}, {0, 0, %.15g}, Pi/4 } { Volume{3}; }"):format(high / 2)
     .. combined("Difference", "2,3")
   is_meshed(geo, (tube and math.pi * outer ^ 2 or 4 * outer ^ 2) * high - math.pi * inner ^ 2 * high
-    - (both and 2 or 1) * hole, (tube and "tube" or "block") .. (both and ", both sides" or ", one side"))
+    - (both and 2 or 1) * hole, 4, (tube and "tube" or "block") .. (both and ", both sides" or ", one side"))
 end
 
 -- A counterbored hole and a blind bore from the side can be cut apart by two planes. One of the planes leaves
@@ -408,7 +408,17 @@ for number = 1, check.whole and 10 or 2 do
     .. cylinder(3, row { x * .2, y * .72, z * .6 }, row { 0, 0, z }, 7)
     .. cylinder(4, row { x * .5, -1, z * .5 }, row { 0, 1 + y * .5, 0 }, reach)
     .. combined("Difference", "2,3,4")
-  is_meshed(geo, x * y * z - math.pi * (16 * z * .6 + 49 * z * .4 + reach ^ 2 * y * .5), "counterbore")
+  is_meshed(geo, x * y * z - math.pi * (16 * z * .6 + 49 * z * .4 + reach ^ 2 * y * .5), 4, "counterbore")
+end
+
+-- A ring with a hollow in the shape of a torus is swept around its axis, in two halves.
+for number = 1, check.whole and 10 or 1 do
+  local turn, hollow, wall = random(18, 24), random(2.5, 4), random(1.5, 3)
+  local half = hollow + wall
+  is_meshed(cylinder(1, row { 0, 0, -half }, row { 0, 0, 2 * half }, turn + half)
+    .. cylinder(2, "0, 0, -9", "0, 0, 18", turn - half)
+    .. ("Torus(3) = {0, 0, 0, %.15g, %.15g};"):format(turn, hollow) .. combined("Difference", "2,3"),
+    2 * math.pi * turn * (4 * half ^ 2 - math.pi * hollow ^ 2), hollow / 3, "ring " .. number)
 end
 
 check.done()

@@ -17,6 +17,7 @@
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
+#include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
@@ -256,6 +257,54 @@ std::vector<StepPiece> divided_at_centre(const OpenVolume& volume, std::size_t m
         if (!cut || !*cut) continue;
         std::vector<StepPiece> made = finished(std::move(parts), most, can_sweep, context);
         if (!made.empty()) return made;
+    }
+    return {};
+}
+
+/// Whether every edge of a skin is a circle around an axis or a seam, and no face meets the axis.
+bool is_ring_around(const Model& model, const Vec3& centre, const Vec3& axis)
+{
+    const auto height_and_radius = [&](Index p) {
+        const Vec3 out = model.at(p) - centre;
+        return Vec2(out.dot(axis), out.cross(axis).norm());
+    };
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() == 2 && uses[0].face == uses[1].face) continue;
+        const std::vector<Index>& points = model.edges[e].points;
+        if (std::ranges::any_of(points, [&](Index p) {
+                return (height_and_radius(p) - height_and_radius(points.front())).norm() > model.tolerance;
+            }))
+            return false;
+    }
+    const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
+    const auto meets_axis = [&](const Triangle& t) {
+        std::vector<Vec2> flat;
+        for (const Index p : t)
+            flat.emplace_back((model.at(p) - centre).dot(u), (model.at(p) - centre).dot(v));
+        return geometry::lies_inside(flat, Vec2::Zero());
+    };
+    return std::ranges::none_of(all_faces(model), [&](FaceId face) {
+        return std::ranges::any_of(model[face].triangles, meets_axis);
+    });
+}
+
+/// Cut a body of revolution with a bore around its axis into two halves, which are swept around the axis.
+/// Example: a ring with a hollow in the shape of a torus. Empty for other volumes, or if the halves cannot be
+/// swept.
+std::vector<StepPiece> divided_through_axis(const OpenVolume& volume, const CanSweep& can_sweep,
+                                            const RunContext& context)
+{
+    const Model& model = volume.model;
+    for (const FaceId face : all_faces(model)) {
+        const auto round = round_shape(model, face);
+        if (!round || !round->axis || !is_ring_around(model, round->centre, *round->axis)) continue;
+        const geometry::Plane plane = geometry::plane_across(round->centre, round->axis->unitOrthogonal());
+        auto halves = unless_refused([&] { return cut_at_edges(volume, plane, {}, 0, context); });
+        if (!halves || halves->size() != 2) return {};
+        const bool suit = std::ranges::all_of(
+            *halves, [&](StepPiece& half) { return find_ends(half, can_sweep, context); });
+        return suit ? std::move(*halves) : std::vector<StepPiece>{};
     }
     return {};
 }
@@ -537,6 +586,7 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
     if (auto divided = with_rounds_divided(volume, can_sweep, context))
         if (take({{std::move(*divided)}})) return;
     if (take_some(cut_in_steps(volume, can_sweep, context)) ||
+        take_some(divided_through_axis(volume, can_sweep, context)) ||
         take_some(divided_at_middle(volume, kMostPieces, can_sweep, context)) ||
         (is_whole && take_some(divided_at_centre(volume, kMostPieces, can_sweep, context))))
         return;

@@ -42,6 +42,7 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - the volume as one piece with the faces that face along an axis as ends, after the rounds at the rims of
 ///   these ends were divided (`split_round_rims()`);
 /// - the volume with the faces that face along an axis as ends, cut at their steps (`cut_steps()`);
+/// - a body of revolution with a bore around its axis, cut into two halves that are swept around the axis;
 /// - the volume divided at its middle (`midpoint_blocks()`);
 /// - divided at a centre, if no cut was made and no length is left to cut;
 /// - the pieces of the best cuts, if some have no ends. Pieces that still have a length to cut are divided at
