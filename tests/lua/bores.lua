@@ -421,4 +421,28 @@ for number = 1, check.whole and 10 or 1 do
     2 * math.pi * turn * (4 * half ^ 2 - math.pi * hollow ^ 2), hollow / 3, "ring " .. number)
 end
 
+-- Pipes of equal radius that meet are cut along the half ellipses where they meet.
+for number = 1, check.whole and 9 or 2 do
+  local radius, long = random(10, 14), random(40, 50)
+  local turns = ({ { 90, 210, 330 }, { 0, 90, 180, 270 }, { 0, 90, 180 } })[(number - 1) % 3 + 1]
+  local geo = {}
+  for _, turn in ipairs(turns) do
+    local way = { long * math.cos(math.rad(turn)), long * math.sin(math.rad(turn)), 0 }
+    -- The run of a tee is one cylinder.
+    local run = #turns == 3 and turn % 180 == 0
+    if turn == 0 or not run then
+      geo[#geo + 1] = cylinder(#geo + 1, run and row { -long, 0, 0 } or "0, 0, 0",
+        run and row { 2 * long, 0, 0 } or row(way), radius)
+    end
+  end
+  if turns[1] == 90 then geo[4] = ("Sphere(4) = {0, 0, 0, %.15g};"):format(radius) end
+  geo[#geo + 1] = combined("Union", #geo > 2 and "2:" .. #geo or "2")
+  local volume = #turns * math.pi * radius ^ 2 * long
+  for n = 1, #turns do
+    local angle = (turns[n % #turns + 1] - turns[n]) % 360
+    if angle < 180 then volume = volume - 4 / 3 * radius ^ 3 / math.tan(math.rad(angle / 2)) end
+  end
+  is_meshed(table.concat(geo), volume, 3, #turns .. " pipes")
+end
+
 check.done()

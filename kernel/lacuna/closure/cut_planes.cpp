@@ -135,7 +135,7 @@ public:
             planes_.push_back({between_[b].second, {}});
         add_through_axes();
         add_at_bent_rims();
-        add_bisectors();
+        add_edge_planes();
         return std::move(planes_);
     }
 
@@ -338,27 +338,47 @@ private:
         }
     }
 
-    /// Add the planes that bisect the angles at two or more concave edges between flat faces.
-    void add_bisectors()
+    /// Add the planes that bisect the angles at two or more concave edges between flat faces, and the planes
+    /// of concave edges that bend, such as the half ellipses where pipes of equal radius meet. A face in the
+    /// plane of such an edge proposes this plane already.
+    void add_edge_planes()
     {
-        std::vector<CutPlane> found;
+        std::vector<CutPlane> bisecting, bent;
         for (const Bend& bend : bends_) {
-            if (!bend.edge.valid() || !straight_along(model_, bend.edge)) continue;
+            if (!bend.edge.valid()) continue;
             const std::span<const FaceUse> uses = model_.uses_of_edge(bend.edge);
+            if (!straight_along(model_, bend.edge)) {
+                const std::vector<std::vector<Vec3>> line(1, use_places(model_, {bend.edge, false}));
+                const geometry::Plane plane = geometry::newell_plane(line);
+                const auto lies_flat = [&](const FaceUse& use) {
+                    return lies_in_plane(model_, use.face, plane);
+                };
+                if (is_in_plane(bend.edge, plane) && std::ranges::none_of(uses, lies_flat))
+                    add_edge(bent, plane, bend.edge);
+                continue;
+            }
             const auto one = plane_of(model_, uses[0].face), other = plane_of(model_, uses[1].face);
-            if (!one || !other) continue;
-            const geometry::Plane plane = geometry::plane_across(model_.at(model_[bend.edge].points.front()),
-                                                                 (one->normal - other->normal).normalized());
-            const auto known = std::ranges::find_if(found, [&](const CutPlane& own) {
-                return are_parallel(own.plane.normal, plane.normal) && is_in_plane(bend.edge, own.plane);
-            });
-            if (known != found.end())
-                known->edges.push_back(bend.edge);
-            else
-                found.push_back({plane, {bend.edge}});
+            if (one && other)
+                add_edge(bisecting,
+                         geometry::plane_across(model_.at(model_[bend.edge].points.front()),
+                                                (one->normal - other->normal).normalized()),
+                         bend.edge);
         }
-        std::ranges::copy_if(found, std::back_inserter(planes_),
+        std::ranges::copy(bent, std::back_inserter(planes_));
+        std::ranges::copy_if(bisecting, std::back_inserter(planes_),
                              [](const CutPlane& plane) { return plane.edges.size() > 1; });
+    }
+
+    /// Add an edge to the plane of a list that contains it, or add the edge's plane.
+    void add_edge(std::vector<CutPlane>& planes, const geometry::Plane& plane, EdgeId edge) const
+    {
+        const auto known = std::ranges::find_if(planes, [&](const CutPlane& own) {
+            return are_parallel(own.plane.normal, plane.normal) && is_in_plane(edge, own.plane);
+        });
+        if (known != planes.end())
+            known->edges.push_back(edge);
+        else
+            planes.push_back({plane, {edge}});
     }
 
     void add_new(const geometry::Plane& plane)

@@ -67,14 +67,22 @@ CutPart part_of(StepPiece piece, const RunContext& context)
     return {std::move(piece), std::move(bends), left, has_cusp};
 }
 
-/// Whether an end has a step: a concave edge of more than 60° between two of its faces. The adjacent piece
-/// could not continue the rows of quads on the walls beside the step.
+/// Whether an end has a step at a wall that a cut made: a concave edge of more than 60° between two faces of
+/// the end, which meets this wall. The adjacent piece could not continue the rows of quads beside the step.
 bool has_stepped_end(const OpenVolume& volume, const RunContext& context)
 {
+    const Model& model = volume.model;
+    std::vector<bool> at_cut(model.vertices.size(), false);
+    for (const FaceId face : volume.faces(Role::wall)) {
+        if (model[face].origin != Origin::made_void) continue;
+        for (const EdgeUse& use : uses_of(model[face])) at_cut[use_from(model, use).index()] = true;
+    }
     const std::vector<double> turns = concave_turns(volume, context);
     for (std::size_t e = 0; e < turns.size(); ++e) {
-        if (!(turns[e] > 2 * kCreaseAngle)) continue;
-        const std::span<const FaceUse> uses = volume.model.uses_of_edge(EdgeId(e));
+        const Edge& edge = model[EdgeId(e)];
+        if (!(turns[e] > 2 * kCreaseAngle) || !(at_cut[edge.from.index()] || at_cut[edge.to.index()]))
+            continue;
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
         const Role role = volume.role[uses[0].face.index()];
         if (role != Role::wall && role == volume.role[uses[1].face.index()]) return true;
     }
@@ -326,11 +334,13 @@ std::size_t divide(CutPart& part, std::size_t most, const CanSweep& can_sweep, c
 /// The pieces of one cut, and the length that is left to cut.
 struct CutTried {
     std::vector<CutPart> parts;
-    double left = 0; ///< length to cut in pieces without ends [model length]
+    double left = 0;               ///< length to cut in pieces without ends [model length]
+    std::vector<double> volumes{}; ///< of the pieces, ascending [model length³]
 };
 
 /// Cut a piece by each of its `cut_planes()`. Cuts that make a cusp (`CutPart::has_cusp`) are left out. The
-/// cuts that leave the least length to cut come first.
+/// cuts that leave the least length to cut come first. Of cuts that leave the same length in pieces of the
+/// same volumes, only one is returned. Examples: cuts by coplanar faces, cuts that are images of each other.
 /// @param whole  false: all planes are used, and a plane with a list of edges cuts only in regions that
 ///         adjoin these edges. True: only planes with a list of edges are used, and they cut in all regions.
 std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
@@ -349,20 +359,31 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, st
         if (!pieces || pieces->size() < 2) continue;
         CutTried cut;
         for (StepPiece& piece : *pieces) {
+            cut.volumes.push_back(enclosed_volume(piece.volume));
             cut.parts.push_back(part_of(std::move(piece), context));
             cut.left += cut.parts.back().left;
         }
+        std::ranges::sort(cut.volumes);
         if (part.has_cusp || std::ranges::none_of(cut.parts, &CutPart::has_cusp))
             cuts.push_back(std::move(cut));
     }
     std::ranges::stable_sort(cuts, {}, &CutTried::left);
-    return cuts;
+    const auto alike = [&](const CutTried& a, const CutTried& b) {
+        return std::abs(a.left - b.left) <= kVisible * part.left &&
+               std::ranges::equal(a.volumes, b.volumes, [](double own, double other) {
+                   return std::abs(own - other) <= kVisible * std::max(own, other);
+               });
+    };
+    std::vector<CutTried> unlike;
+    for (CutTried& cut : cuts)
+        if (std::ranges::none_of(unlike, [&](const CutTried& other) { return alike(cut, other); }))
+            unlike.push_back(std::move(cut));
+    return unlike;
 }
 
 /// The cuts that reduce the length to cut (`length_to_cut()`) of a piece, best first. Pieces that have ends
 /// need no further cut, so their length is not counted. A cut into two pieces that both have ends cannot be
-/// improved on and is returned alone. Of cuts into pieces of the same volumes, only one is returned.
-/// Examples: cuts by coplanar faces, and cuts that are images of each other.
+/// improved on and is returned alone.
 std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                 const CanSweep& can_sweep, const RunContext& context)
 {
@@ -388,26 +409,7 @@ std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, s
     std::ranges::stable_sort(cuts, {}, [&](const CutTried& cut) {
         return std::tuple(cut.left, without_ends(cut), cut.parts.size());
     });
-    const auto volumes_of = [](const CutTried& cut) {
-        std::vector<double> volumes;
-        for (const CutPart& own : cut.parts) volumes.push_back(enclosed_volume(own.piece.volume));
-        std::ranges::sort(volumes);
-        return volumes;
-    };
-    std::vector<CutTried> unlike;
-    std::vector<std::vector<double>> known;
-    for (CutTried& cut : cuts) {
-        std::vector<double> own = volumes_of(cut);
-        if (std::ranges::any_of(known, [&](const std::vector<double>& other) {
-                return std::ranges::equal(own, other, [](double a, double b) {
-                    return std::abs(a - b) <= kFileAccuracy * std::max(a, b);
-                });
-            }))
-            continue;
-        known.push_back(std::move(own));
-        unlike.push_back(std::move(cut));
-    }
-    return unlike;
+    return cuts;
 }
 
 /// Cuts a volume and then its parts, as long as a cut reduces the length to cut in parts without ends.

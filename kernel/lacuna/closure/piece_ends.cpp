@@ -397,10 +397,15 @@ bool ends_suit_columns(const OpenVolume& volume)
         return area_vector_of(model, volume.faces(end)).stableNormalized();
     };
     const Vec3 source = mean(Role::source), target = mean(Role::target);
+    // A riser inclines the mean normal of its own end towards itself, but not that of the opposite end.
+    const bool opposite = source.dot(target) < -kContinues;
     for (const Role end : {Role::source, Role::target}) {
+        const Vec3 &here = end == Role::source ? source : target,
+                   &there = end == Role::source ? target : source;
         for (const FaceId face : volume.faces(end)) {
             const Vec3 own = face_area_vector(model, face);
-            if (own.dot(end == Role::source ? source : target) < kFacesEnd * own.norm()) return false;
+            const double least = kFacesEnd * own.norm();
+            if (own.dot(here) < least || (opposite && -own.dot(there) < least)) return false;
         }
     }
     // A wall parallel to both ends is a shoulder between two sections.

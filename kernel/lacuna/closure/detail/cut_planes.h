@@ -54,8 +54,9 @@ struct CutPlane {
 ///    normals of two axes;
 /// 5. planes through the axes of cylinders that cross each other, and of bores that leave through a bent
 ///    face. Such a plane divides a bore into two grooves;
-/// 6. planes that bisect the angles at two or more concave edges between flat faces, such as the plane
-///    through opposite edges of a square window; only regions that adjoin these edges are cut.
+/// 6. planes of concave edges that bend, such as those where pipes meet, and planes that bisect the angles at
+///    two or more concave edges between flat faces, such as the plane through opposite edges of a square
+///    window; only regions that adjoin these edges are cut.
 /// @param most  largest number of planes between features.
 std::vector<CutPlane> cut_planes(const topology::OpenVolume& volume, const std::vector<Bend>& bends,
                                  std::size_t most);

@@ -46,7 +46,7 @@ ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context = 
 bool walls_run_between_ends(const topology::OpenVolume& volume);
 
 /// Whether columns of cells can run from end to end of a closed volume. Conditions:
-/// - no face of an end is as steep as a wall;
+/// - no face of an end is as steep as a wall, compared with its own end and with an opposite one;
 /// - no wall is parallel to two opposite ends;
 /// - the border of each wall has a corner wherever the adjacent face changes from an end to another wall.
 ///   Without the corner, a cell there would have two collinear sides and no volume.
