@@ -555,6 +555,45 @@ std::vector<StepPiece> pieces_of(std::vector<CutPart> parts, const CanSweep& can
     return pieces;
 }
 
+/// Tells partitions apart by the centroids of their pieces' skins: cuts that are made in another order may
+/// divide a volume into the same pieces.
+class KnownPartitions {
+public:
+    explicit KnownPartitions(double near) : near_(near) {}
+
+    /// Whether pieces differ from those of each earlier call.
+    bool is_new(const std::vector<StepPiece>& pieces)
+    {
+        std::vector<Vec3> own;
+        for (const StepPiece& piece : pieces) own.push_back(centroid_of(piece.volume.model));
+        const auto is_same = [&](const std::vector<Vec3>& other) {
+            return other.size() == own.size() && std::ranges::all_of(own, [&](const Vec3& p) {
+                       return std::ranges::any_of(other,
+                                                  [&](const Vec3& q) { return (q - p).norm() <= near_; });
+                   });
+        };
+        if (std::ranges::any_of(known_, is_same)) return false;
+        known_.push_back(std::move(own));
+        return true;
+    }
+
+private:
+    static Vec3 centroid_of(const Model& model)
+    {
+        Vec3 sum = Vec3::Zero();
+        double area = 0;
+        for (const FaceId face : all_faces(model)) {
+            const double own = face_area(model, face);
+            sum += own * face_centroid(model, face);
+            area += own;
+        }
+        return sum / area;
+    }
+
+    double near_;
+    std::vector<std::vector<Vec3>> known_;
+};
+
 } // namespace
 
 bool has_ends(const OpenVolume& piece)
@@ -581,7 +620,11 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
     std::vector<CutPart> first = cuts.empty() ? std::vector{whole} : parts_of_cut(0);
     const bool is_swept = std::ranges::all_of(first, &CutPart::has_ends);
     const bool is_whole = first.size() == 1 && !(first.front().left > 0);
-    if (is_swept && take(pieces_of(std::move(first), can_sweep, context))) return;
+    KnownPartitions known(kVisible * volume.model.diagonal);
+    const auto take_new = [&](std::vector<StepPiece> pieces) {
+        return known.is_new(pieces) && take(std::move(pieces));
+    };
+    if (is_swept && take_new(pieces_of(std::move(first), can_sweep, context))) return;
     const auto take_some = [&](std::vector<StepPiece> pieces) {
         return !pieces.empty() && take(std::move(pieces));
     };
@@ -596,9 +639,9 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
     if (!is_swept && first.size() == 1)
         first.front().has_ends = find_ends(first.front().piece, suits, context) &&
                                  first.front().piece.volume.role != volume.role;
-    if (!is_swept && take(pieces_of(std::move(first), can_sweep, context))) return;
+    if (!is_swept && take_new(pieces_of(std::move(first), can_sweep, context))) return;
     for (std::size_t c = 1; c < cuts.size(); ++c)
-        if (take(pieces_of(parts_of_cut(c), can_sweep, context))) return;
+        if (take_new(pieces_of(parts_of_cut(c), can_sweep, context))) return;
 }
 
 } // namespace lacuna::closure

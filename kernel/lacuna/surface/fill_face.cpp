@@ -82,7 +82,7 @@ geometry::Flattened laid_flat(const Model& model, FaceId face, const FineFacets&
 try {
     return geometry::flatten(fine.points, fine.triangles, {.settled = kVisible});
 } catch (const InvalidInput& error) { // the error names facets but not the face
-    throw NotSweepable(
+    throw InvalidInput(
         not_flat(model, face, "are in several parts, closed or have a handle").attempt(error.message()));
 }
 

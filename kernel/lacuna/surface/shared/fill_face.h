@@ -38,8 +38,9 @@ struct FaceQuads {
 /// @param rim    nodes of the boundary, kept in this order.
 /// @param loops  cycles of indices in `rim`, with the face on the left.
 /// @param rows   rows along sides of the rim, with heights on the face; null: none.
-/// @throw NotSweepable "surface.not_flat"  the face or its rim folds when flattened; or a curved face
-///         consists of several parts, is closed or has a handle; or an error of `mesher`.
+/// @throw NotSweepable "surface.not_flat"  the face or its rim folds when flattened; or an error of `mesher`.
+/// @throw InvalidInput "surface.not_flat"  a curved face consists of several parts, is closed or has a
+///         handle.
 FaceQuads fill_face(const topology::Model& model, FaceId face, std::span<const RimNode> rim,
                     const std::vector<std::vector<Index>>& loops, const SizeFields& sizes,
                     const quads::PlanarQuadMesher& mesher, const quads::BoundaryRows* rows = nullptr,
