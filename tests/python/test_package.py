@@ -452,7 +452,7 @@ class Signals(unittest.TestCase):
         sent = []
 
         def interrupt():
-            sent.append(time.process_time())
+            sent.append(os.times().user)  # a virtual machine may take seconds to clear pages
             os.kill(os.getpid(), signal.SIGINT)
 
         for after in 0.05, 0.4:
@@ -461,7 +461,7 @@ class Signals(unittest.TestCase):
             timer.start()
             with self.assertRaises(KeyboardInterrupt):
                 void.sweep(layers=400, size=0.005, threads=1)
-            self.assertLess(time.process_time() - sent[0], 0.5, "seconds of one processor")
+            self.assertLess(os.times().user - sent[0], 0.5, "seconds of one processor")
             timer.join()
         self.assertEqual(void.sweep(layers=2, size=0.5).layers, 2)
 
