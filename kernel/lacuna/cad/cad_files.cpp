@@ -29,8 +29,6 @@ namespace {
 constexpr std::size_t kHead = 4096; // number of leading bytes from which the format is recognised
 /// Longest script that is parsed [bytes]; larger than anything written by hand or by Gmsh.
 constexpr std::size_t kLongestScript = std::size_t{64} << 20;
-/// Limit on the contents of a script: the script itself and the files that it includes or merges.
-constexpr std::size_t kMostContents = 100;
 
 [[noreturn]] void fail(const std::string& path, int error)
 {
@@ -176,10 +174,10 @@ void add_merged(CadFiles& files, std::size_t first, const std::string& folder, c
         skip_commands(files, files.descriptors[first + i], own, std::move(text), found.skipped);
         for (const ScriptFile& wanted : found.files) {
             if (std::ranges::find(contents, wanted.name, &SentFile::name) != contents.end()) continue;
-            if (contents.size() == kMostContents)
+            if (files.descriptors.size() == cad_protocol::kMostDescriptors)
                 throw InvalidInput(Message("cad.script",
                                            "{}, line {}: the script includes more than {} files", own,
-                                           wanted.line, needed(kMostContents - 1))
+                                           wanted.line, needed(cad_protocol::kMostDescriptors - 1))
                                        .remedy("merge some of these files into one"));
             if (::access((folder + wanted.name).c_str(), F_OK) != 0) {
                 throw InvalidInput(

@@ -26,11 +26,6 @@ namespace {
 /// grows with the cube of the number of points.
 constexpr std::size_t kLeadingPoints = 40;
 
-/// Precision of walls and edges that a known motion makes, relative to the diagonal. Their shapes are exact,
-/// so a smaller deviation makes sense: a spline of this precision through a circle encloses the circle's area
-/// to 1e-10.
-constexpr double kMotionPrecision = 1e-11;
-
 /// The surface that an edge sweeps: one spline surface, or one for each segment of a polyline.
 std::vector<SplineSurfaceData> swept_patches(const geometry::SweptSurface& surface, double precision)
 {
@@ -95,7 +90,8 @@ public:
         Eigen::AlignedBox3d box;
         for (const Vec3& p : model_.points) box.extend(p);
         precision_ = kSamePlace * box.diagonal().norm();
-        motion_precision_ = kMotionPrecision * box.diagonal().norm();
+        // The shapes that a known motion makes are exact, so that splines through them may be, too.
+        motion_precision_ = kRoundoff * box.diagonal().norm();
         plan_.request.points = model_.points;
         plan_.request.diagonal = model_.diagonal;
         for (std::size_t s = 0; s < sources.order.size(); ++s) {

@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x4443414c; // "LCAD"
 constexpr std::uint16_t kVersion = 7;        // incremented with every change of a message
-/// Limit on the descriptors of one frame; Linux allows 253.
-constexpr std::size_t kMostDescriptors = 250;
 /// Limit on the bytes of one frame: more than the largest model that can be meshed.
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 

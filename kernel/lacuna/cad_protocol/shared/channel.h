@@ -13,6 +13,8 @@ namespace lacuna::cad_protocol {
 
 /// Number of the CAD process's end of the connection among its descriptors.
 inline constexpr int kSocket = 3;
+/// Limit on the descriptors of one frame, and so on the files of a request; Linux allows 253.
+inline constexpr std::size_t kMostDescriptors = 250;
 /// Bytes that are copied, sent or allocated at once.
 inline constexpr int kBlock = 1 << 20;
 /// Pause between two looks at the other process, and between two reports of progress: a person notices no
