@@ -7,7 +7,9 @@
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/side_points.h>
@@ -137,34 +139,45 @@ public:
     }
 
     /// Move the middles of faces (unless `fixed`) and of the volume, where this improves the adjacent blocks.
-    /// Moves are along the coordinate axes, in ever shorter steps. The middles of cut faces stay at their
-    /// centroids, because the adjacent piece shares these faces.
+    /// Moves are along the coordinate axes, in steps that are halved when no middle moves any more. The
+    /// middles of cut faces stay at their centroids, because the adjacent piece shares these faces.
     void improve(bool fixed, const RunContext& context)
     {
-        constexpr double kFirst = 0.25, kShorter = 0.8,
-                         kLast = 0.005; // shares of the shortest edge of blocks
-        for (double step = kFirst; step > kLast; step *= kShorter) {
-            check_cancelled(context);
-            for (std::size_t p = fixed ? places_.size() - 1 : faces_; p < places_.size(); ++p) {
-                if (p - faces_ < facets_.size() && is_cut_[p - faces_]) continue;
-                double loss = loss_at(p);
-                const double length = step * shortest_at(p);
-                for (int k = 0; k < 6; ++k) {
-                    const Vec3 before = places_[p];
-                    places_[p][k / 2] += k % 2 == 0 ? length : -length;
-                    if (p - faces_ < facets_.size())
-                        places_[p] = facets_[p - faces_].closest(places_[p]).point;
-                    const double now = loss_at(p);
-                    if (now < loss)
-                        loss = now;
-                    else
-                        places_[p] = before;
-                }
+        for (double step = geometry::kLongestStep; step >= geometry::kShortestStep; step /= 2) {
+            bool moved = true;
+            for (int round = 0; moved && round < kMostRounds; ++round) {
+                check_cancelled(context);
+                moved = false;
+                for (std::size_t p = fixed ? places_.size() - 1 : faces_; p < places_.size(); ++p)
+                    moved = move(p, step) || moved;
             }
         }
     }
 
 private:
+    /// Move a middle along the coordinate axes. @param step  share of the shortest edge of blocks.
+    /// @return  whether it moved
+    bool move(std::size_t p, double step)
+    {
+        if (p - faces_ < facets_.size() && is_cut_[p - faces_]) return false;
+        bool moved = false;
+        double loss = loss_at(p);
+        const double length = step * shortest_at(p);
+        for (int k = 0; k < 6; ++k) {
+            const Vec3 before = places_[p];
+            places_[p][k / 2] += k % 2 == 0 ? length : -length;
+            if (p - faces_ < facets_.size()) places_[p] = facets_[p - faces_].closest(places_[p]).point;
+            const double now = loss_at(p);
+            if (now < loss) {
+                loss = now;
+                moved = true;
+            } else {
+                places_[p] = before;
+            }
+        }
+        return moved;
+    }
+
     [[nodiscard]] double jacobian(const Block& block, std::size_t corner) const
     {
         std::array<Vec3, 3> way;
