@@ -216,7 +216,7 @@ Eigen::AlignedBox3d box_of(const FilledParts& mesh)
     Eigen::AlignedBox3d box;
     for (const sweep::Swept& part : mesh.swept.parts)
         for (const Vec3& p : part.mesh.nodes) box.extend(p);
-    const Vec3 slack = Vec3::Constant(sweep::kNearMiss * kFileAccuracy * box.diagonal().norm());
+    const Vec3 slack = Vec3::Constant(kVisible * box.diagonal().norm());
     return {box.min() - slack, box.max() + slack};
 }
 

@@ -22,8 +22,6 @@ constexpr double kStrong = 0.08;
 constexpr double kSmoothing = 2.0 / 3.0;
 /// Levels with at most this number of rows are solved directly, which takes one millisecond.
 constexpr Eigen::Index kCoarsest = 200;
-/// Multigrid is not used if aggregation keeps more than this share of the rows.
-constexpr double kLeastGain = 0.7;
 /// Relative residual at which the iteration stops. Measured on walls of 10,000 to 700,000 facets: the error
 /// of values in [0, 1] is then below 1e-9.
 constexpr double kSettled = 1e-11;
@@ -169,7 +167,7 @@ Multigrid::Multigrid(Matrix&& matrix, const RunContext& context)
         Level& fine = levels_.back();
         Index count = 0;
         const std::vector<Index> of = aggregates(fine.matrix, count);
-        if (count == 0 || count > kLeastGain * static_cast<double>(of.size())) {
+        if (count == 0 || index(count) == of.size()) {
             good_ = false;
             return;
         }

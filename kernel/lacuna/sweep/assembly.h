@@ -16,10 +16,6 @@
 
 namespace lacuna::sweep {
 
-/// If two faces are farther apart than the tolerance, but not farther than this many tolerances, they were
-/// probably meant to touch: CAD kernels leave gaps of up to about a thousandth of a model. Heuristic.
-inline constexpr double kNearMiss = 1000;
-
 /// One volume of an assembly.
 struct AssemblyMember {
     const topology::OpenVolume* volume = nullptr; ///< the sealed volume of this member
@@ -72,7 +68,7 @@ struct NearMiss {
 /// @throw InvalidInput "assembly.part_of_face"  a face covers only part of another member's face;
 ///         "assembly.overlap"  two volumes lie on the same side of a shared face, or overlap;
 ///         "assembly.rims_apart"  the rims of a shared face differ by more than the tolerance, but by less
-///         than `kNearMiss` times the tolerance; "assembly.crack"  faces touch in part or along an edge, and
+///         than a thousand times the tolerance; "assembly.crack"  faces touch in part or along an edge, and
 ///         elsewhere have a gap in the same range. The message names the faces and members.
 /// @note  O(facets log facets) over faces whose boxes overlap.
 std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context = {});

@@ -280,8 +280,9 @@ double near_window(const AssemblyMember& a, const AssemblyMember& b)
 {
     const double tolerance = pair_tolerance(a, b);
     const double smaller = std::min(a.volume->model.diagonal, b.volume->model.diagonal);
+    // CAD kernels leave gaps up to a share kVisible of a model, whose tolerance is kFileAccuracy by default.
     // A gap wider than half of the largest tolerance that a model can have is intended.
-    return std::max(tolerance, std::min(kNearMiss * tolerance, kMostTolerance / 2 * smaller));
+    return std::max(tolerance, std::min(kVisible / kFileAccuracy * tolerance, kMostTolerance / 2 * smaller));
 }
 
 double corners_apart(const Model& a, FaceId face_a, const Model& b, FaceId face_b, double at_least)

@@ -19,7 +19,7 @@ struct NearPair {
 
 /// The larger of two members' tolerances.
 double pair_tolerance(const AssemblyMember& a, const AssemblyMember& b);
-/// Largest gap that may be unintended: `kNearMiss` times the tolerance, but not more than a share of the
+/// Largest gap that may be unintended: a thousand times the tolerance, but not more than a share of the
 /// smaller member [model length].
 double near_window(const AssemblyMember& a, const AssemblyMember& b);
 
