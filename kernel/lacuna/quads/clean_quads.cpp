@@ -35,9 +35,6 @@ constexpr std::array<SearchLimits, 3> kStages{
 /// quads, three times this budget removes no more irregular nodes. The thorough search needs more for larger
 /// meshes.
 constexpr long kLeastBudget = 50'000, kQuickBudget = 15'000;
-/// Number of rings of quads around a patch that are smoothed together with a filling, so that the filling can
-/// adapt.
-constexpr int kRings = 2;
 
 class Cleaner {
 public:

@@ -3,10 +3,12 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/mesh/shared/incidence.h>
+#include <lacuna/quads/detail/clean_patch.h>
 #include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/quads/shared/pattern_counts.h>
 
@@ -24,11 +26,6 @@ namespace {
 /// Only this many quads of a row, counted from the boundary, are tried as the triangle, so the triangle is
 /// near the boundary.
 constexpr std::size_t kRowSteps = 8;
-/// Number of rings of cells around the closed row whose nodes are moved, and number of rounds of moves. If
-/// the mesh is smoothed later, `kFewRounds` is used. More rings or rounds improve the worst cell only
-/// slightly.
-constexpr int kRings = 3;
-constexpr int kRounds = 30, kFewRounds = 3;
 
 /// Quality of a quad. The quality of a triangle is relative to an equilateral triangle.
 double quality_of(std::span<const Vec2> points, const Quad& cell)
@@ -68,7 +65,7 @@ public:
           at_(mesh::quads_at_nodes(quads_, points_.size()))
     {
         std::set<Index> reached(closed.near.begin(), closed.near.end());
-        for (int ring = 0; ring < kRings; ++ring) {
+        for (int ring = 0; ring < cleaning::kRings; ++ring) {
             std::set<Index> next = reached;
             for (const Index n : reached) {
                 for (const Index q : at_.of(index(n)))
@@ -84,11 +81,11 @@ public:
         cells_.assign(cells.begin(), cells.end());
     }
 
-    void run(int rounds)
+    void run()
     {
         // A node is skipped as long as nothing around it moves.
         std::vector<char> awake(points_.size(), 1);
-        for (int round = 0; round < rounds; ++round) {
+        for (int round = 0; round < kMostRounds; ++round) {
             bool moved = false;
             for (const Index n : free_) {
                 if (awake[index(n)] == 0) continue;
@@ -191,7 +188,7 @@ Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index mid
     number[index(middle)] = 0;
     // A row extends at most kRowSteps - 1 rings from the middle node, the nodes that move lie up to kRings
     // further, and one more ring contains their cells. The other two rings are a margin.
-    for (std::size_t ring = 0, begin = 0; ring < kRowSteps + kRings + 2; ++ring) {
+    for (std::size_t ring = 0, begin = 0; ring < kRowSteps + cleaning::kRings + 2; ++ring) {
         const std::size_t end = window.nodes.size();
         for (; begin < end; ++begin) {
             for (const Index q : at.of(index(window.nodes[begin]))) {
@@ -262,7 +259,7 @@ std::vector<Row> rows_from(const Window& window)
 /// Close a row. Empty if closing would also merge two corners of a cell beside the row.
 /// @param middle  the added node; all nodes before it are nodes of the region.
 std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on_rim, const Row& row,
-                            Index middle, int rounds)
+                            Index middle)
 {
     std::vector<Vec2> points = mesh.points;
     std::vector<Index> to(points.size());
@@ -305,7 +302,7 @@ std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on
     }
     result.mesh.quads.push_back(*triangle);
     result.mesh.how = mesh.how;
-    Smoother(result, index(middle)).run(rounds);
+    Smoother(result, index(middle)).run();
     return result;
 }
 
@@ -322,13 +319,13 @@ Row in_mesh(Row row, const Window& window)
 /// The best result of closing a row in a mesh of the divided region. Empty if no row can be closed.
 /// @param than  if given, only a result that is better than `than` is returned.
 std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle,
-                                 const std::optional<Closed>& than, int rounds, const RunContext& context)
+                                 const std::optional<Closed>& than, const RunContext& context)
 {
     const Window window = window_at(mesh, divided, middle);
     const std::vector<Row> rows = rows_from(window);
     std::vector<std::optional<Closed>> found(rows.size());
     parallel_each(context, rows.size(), 1, [&](std::size_t r) {
-        found[r] = close(window.mesh, window.on_rim, rows[r], window.middle, rounds);
+        found[r] = close(window.mesh, window.on_rim, rows[r], window.middle);
     });
     const Closed* best = than ? &*than : nullptr;
     const Row* row = nullptr;
@@ -340,7 +337,7 @@ std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& di
     if (row == nullptr) return std::nullopt;
     std::vector<char> on_rim(mesh.points.size(), 0);
     for (std::size_t n = 0; n < window.nodes.size(); ++n) on_rim[index(window.nodes[n])] = window.on_rim[n];
-    return close(mesh, on_rim, in_mesh(*row, window), middle, rounds);
+    return close(mesh, on_rim, in_mesh(*row, window), middle);
 }
 
 /// The region with the given sides divided, in their order. The new nodes in the middle of these sides are
@@ -421,7 +418,7 @@ PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& 
     for (std::size_t s = 0; s < std::min(sides.size(), kCandidates); ++s) {
         const PlanarRegion divided = divide(region, std::span(&sides[s], 1));
         const PlanarQuads filled = mesher(divided, context);
-        if (std::optional<Closed> closed = close_best(filled, divided, middle, best, kRounds, context))
+        if (std::optional<Closed> closed = close_best(filled, divided, middle, best, context))
             best = std::move(closed);
         if (best && best->worst >= kPoorQuad) break;
     }
@@ -438,7 +435,7 @@ PlanarQuads fill_divided_region(const PlanarRegion& region, std::span<const Regi
     // Close rows at the last added node first, so that nodes added before it keep their numbers.
     for (std::size_t s = sides.size(); s-- > 0;) {
         const auto middle = static_cast<Index>(region.points.size() + s);
-        std::optional<Closed> closed = close_best(mesh, divided, middle, std::nullopt, kFewRounds, context);
+        std::optional<Closed> closed = close_best(mesh, divided, middle, std::nullopt, context);
         if (!closed) refuse_rows(sides_of(region));
         mesh = std::move(closed->mesh);
     }

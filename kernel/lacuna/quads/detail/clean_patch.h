@@ -10,6 +10,10 @@
 
 namespace lacuna::quads::cleaning {
 
+/// Number of rings of quads around a changed place whose points move with it, so that they can adapt. More
+/// rings improve the worst quad only slightly.
+inline constexpr int kRings = 2;
+
 /// A patch of quads with a single outline.
 struct QuadPatch {
     std::vector<Index> quads;
