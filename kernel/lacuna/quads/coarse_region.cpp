@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/coarse_region.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/region_loops.h>
 
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -138,10 +138,8 @@ void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::
 
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place)
 {
-    // If the loop turns by more than 20° at a node, the node stays, so that round holes keep at least nine
-    // nodes. With a larger angle, more regions could be coarsened, but corners would be rounded off.
-    constexpr double kTurnsLeftOut = std::numbers::pi / 9;
-    return std::abs(corner_angle(region.points, loop, place) - std::numbers::pi) > kTurnsLeftOut;
+    // Where both sides belong to one curve, the node may go, so that round holes keep at least nine nodes.
+    return -std::cos(corner_angle(region.points, loop, place)) < kOneCurve;
 }
 
 std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/pattern_loop.h>
 
 #include <array>
@@ -31,13 +31,12 @@ double own_turn(const PatternLoop& loop, std::size_t i)
                  : loop.direction[0] + loop.turns - loop.direction[loop.size() - 1];
 }
 
-/// Whether the quads at a node would have angles of 54° to 126° if the loop turned there by `turn`. The sine
-/// of these angles is 0.8.
+/// Whether the quads at a node would be good there if the loop turned by `turn`: `kGoodQuad` is the sine of
+/// their angles.
 bool may_turn(const PatternLoop& loop, std::size_t i, int turn)
 {
-    constexpr double kOffSquare = 0.4; // allowed deviation of each angle, in right angles: 54° to 126°
     if (turn < -2 || turn > 1 || loop.movable[i]) return false;
-    return std::abs((2 - own_turn(loop, i)) / (2 - turn) - 1) < kOffSquare;
+    return std::sin((2 - own_turn(loop, i)) / (2 - turn) * kRightAngle) > kGoodQuad;
 }
 
 /// @param hard  true: move turns of the boundary itself, if the angles at the old and the new node permit it;

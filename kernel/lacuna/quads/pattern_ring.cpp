@@ -28,11 +28,7 @@ public:
         const std::vector<Index> nodes = loop_.nodes;
         const std::size_t n = nodes.size();
         // At a corner, the row has one node beside three nodes of the loop, or three nodes beside one.
-        constexpr std::size_t kApart = 3;
-        for (std::size_t c = 0; c < corners.size(); ++c) {
-            const std::size_t next = corners[(c + 1) % corners.size()] + (c + 1 == corners.size() ? n : 0);
-            if (next < corners[c] + kApart) return false;
-        }
+        if (!ends_apart(corners, n)) return false;
         std::vector<char> turns(n, 0);
         for (const std::size_t c : corners) turns[c] = 1;
         // For each node, the first and the last new node beside it. They differ only where the row grows.
@@ -107,6 +103,16 @@ private:
 };
 
 } // namespace
+
+bool ends_apart(std::span<const std::size_t> ends, std::size_t n)
+{
+    constexpr std::size_t kApart = 3;
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        const std::size_t next = ends[(e + 1) % ends.size()] + (e + 1 == ends.size() ? n : 0);
+        if (next < ends[e] + kApart) return false;
+    }
+    return true;
+}
 
 int RingWidths::steps(double height) const
 {

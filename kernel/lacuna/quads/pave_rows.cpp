@@ -4,6 +4,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/quads/detail/corner_sine.h>
+#include <lacuna/quads/detail/pattern_ring.h>
 #include <lacuna/quads/detail/pave_gaps.h>
 
 #include <optional>
@@ -73,19 +74,12 @@ private:
     [[nodiscard]] int kind(std::size_t i) const { return quads_in(angles_[i % n_]); }
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    /// Whether there are at least three edges between two ends. At each end, the row's inner side has one
-    /// edge less on both adjacent sides, so a side of three edges keeps one edge.
     [[nodiscard]] bool ends_far_apart() const
     {
-        constexpr std::size_t kApart = 3; // edges between two ends
-        std::size_t first = n_, last = n_;
-        for (std::size_t i = 0; i < n_; ++i) {
-            if (kind(i) != 1) continue;
-            if (last < n_ && i - last < kApart) return false;
-            if (first == n_) first = i;
-            last = i;
-        }
-        return first == n_ || first == last || first + n_ - last >= kApart;
+        std::vector<std::size_t> ends;
+        for (std::size_t i = 0; i < n_; ++i)
+            if (kind(i) == 1) ends.push_back(i);
+        return ends.size() < 2 || ends_apart(ends, n_);
     }
 
     /// Whether the row is high enough. A row that is lower than 0.6 of its height on a quarter of its length

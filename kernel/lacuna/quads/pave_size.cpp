@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/pave_size.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/quads/detail/counted_loop.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,25 +118,23 @@ private:
 
 BoundarySizes sizes_with_boundary(const PlanarRegion& region)
 {
-    // A side has about the requested length if the two lengths differ by less than these factors. With higher
-    // factors, the size is graded less often, so edge lengths jump more at the boundary.
-    constexpr double kAlike = 1.6, kRingAlike = 1.75;
     const std::vector<BoundarySide> sides = sides_of(region);
     double sum = 0;
     for (const BoundarySide& side : sides) sum += side.length;
     SizeField asked = region.size;
     if (!asked) asked = [mean = sum / static_cast<double>(sides.size())](const Vec2&) { return mean; };
+    // Whether the length of every side differs from the requested one by less than this factor.
     const auto are_alike = [&](double most) {
         return std::ranges::all_of(sides, [&](const BoundarySide& side) {
             const double size = asked(side.middle);
             return side.length < most * size && size < most * side.length;
         });
     };
-    if (are_alike(kAlike)) return {asked, asked};
+    if (are_alike(kLongestOfSize)) return {asked, asked};
     const SizeField limited = [asked, bounds = std::make_shared<const SizeBounds>(sides)](const Vec2& p) {
         return bounds->limit(p, asked(p));
     };
-    return {limited, are_alike(kRingAlike) ? asked : limited};
+    return {limited, are_alike(kRingSegment.most) ? asked : limited};
 }
 
 double quads_within(const PlanarRegion& region)

@@ -336,7 +336,6 @@ double worth_of(const PlaneQuality& quality)
 void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries, bool sizes,
              PlaneQuality& quality)
 {
-    constexpr double kStill = 0.03; // share of a side: smaller moves do not count as moves
     const PlaneQuality before = quality;
     const double rounding = symmetries.empty() ? 0 : kFileAccuracy;
     const auto keeps = [](double was, double is) { return is >= kPromisedShare || was < kPromisedShare; };
@@ -353,7 +352,7 @@ void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symm
             idle = -1;
             mesh.points = made.points;
         }
-        if (most < kStill) break;
+        if (most == 0) break;
     }
 }
 

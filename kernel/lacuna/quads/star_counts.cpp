@@ -13,10 +13,6 @@
 namespace lacuna::quads {
 namespace {
 
-/// Additional cost if the number of quads differs from the wanted number by more than a quarter. It exceeds
-/// the cost of any numbers of sides within their range.
-constexpr double kOffAsked = 1e6;
-
 /// The segments that are the sides of a patch, between its corners. Empty if a side bends or consists of
 /// several segments.
 std::vector<std::size_t> sides_of_patch(const CountTask& task)
@@ -48,8 +44,9 @@ std::vector<double> wanted_feet(const CountTask& task, const std::vector<std::si
 
 /// The best numbers of sides whose feet are near several multiples of the wanted feet. Empty if none are
 /// permitted.
+/// @param most_off  largest deviation from the requested number of quads, as a share of it.
 std::optional<Counts> best_near(const CountTask& task, const std::vector<std::size_t>& sides,
-                                const std::vector<double>& feet, const CountRange& range)
+                                const std::vector<double>& feet, const CountRange& range, double most_off)
 {
     constexpr std::array<double, 11> kShares{1, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 1.05, 1.1, 1.15, 1.2};
     const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
@@ -80,9 +77,9 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
                 counts.cost += cost_of_sides(own.wanted, count);
                 quads += foot[i] * foot[(i + 1) % n];
             }
+            is_allowed = is_allowed && std::abs(quads - asked) <= most_off * asked;
             if (!is_allowed || !are_alike(counts.sides, pairs)) continue;
             counts.cost += kWeightOfQuads * (quads - asked) * (quads - asked) / asked;
-            if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOffAsked;
             if (counts.cost < (best ? best->cost : kInfinity)) best = std::move(counts);
         }
     }
@@ -93,20 +90,17 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
 
 std::optional<std::vector<int>> star_counts(const CountTask& task)
 {
-    // Minimum ratio between the smallest and the largest width of a grid. Not measured.
-    constexpr double kBalanced = 0.5;
     const std::vector<std::size_t> sides = sides_of_patch(task);
     if (sides.size() != 3 && sides.size() != 5) return std::nullopt;
     const std::vector<double> feet = wanted_feet(task, sides);
-    if (std::ranges::min(feet) < kBalanced * std::ranges::max(feet)) return std::nullopt;
-    std::optional<Counts> best;
-    for (const CountRange& range : {kSegment, kRingSegment}) {
-        auto found = best_near(task, sides, feet, range);
-        if (found && (!best || found->cost < best->cost)) best = std::move(found);
-        if (best && best->cost < kOffAsked) break;
-    }
-    if (!best) return std::nullopt;
-    return std::move(best->sides);
+    // The widths of the grids may differ as much as the accepted lengths of sides.
+    if (kLongestOfSize * std::ranges::min(feet) < kShortestOfSize * std::ranges::max(feet))
+        return std::nullopt;
+    auto found = best_near(task, sides, feet, kSegment, kQuadsOff);
+    if (!found) found = best_near(task, sides, feet, kRingSegment, kQuadsOff);
+    if (!found) found = best_near(task, sides, feet, kRingSegment, kInfinity);
+    if (!found) return std::nullopt;
+    return std::move(found->sides);
 }
 
 } // namespace lacuna::quads

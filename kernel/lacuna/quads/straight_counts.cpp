@@ -115,8 +115,7 @@ bool have_place(const std::vector<LoopGrid>& grids)
 /// Whether some quads between two loops would be much flatter than the size requires.
 bool are_close(const CountTask& task)
 {
-    constexpr double kNarrow = 0.5; // share of the size asked. Not measured
-    const double narrow = kNarrow * mean_size(task);
+    const double narrow = kShortestOfSize * mean_size(task);
     const PlanarRegion& region = task.region;
     for (std::size_t l = 1; l < region.loops.size(); ++l) {
         for (std::size_t m = 0; m < l; ++m) {

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/submap_grid.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/quads/shared/submap.h>
 
 #include <algorithm>
@@ -98,10 +99,10 @@ SubmapGrid::SubmapGrid(const std::vector<GridLoop>& loops, int period) : period_
             }
         }
     }
-    // Maximum number of grid lines in each direction. Only a misplaced hole needs more.
-    constexpr std::int64_t kMost = 1 << 24;
+    // Only a misplaced hole needs more grid lines than a mesh may have cells.
     for (std::size_t k = 0; k < 2; ++k) {
-        if (std::int64_t{high[k]} - low_[k] > kMost) return; // without cells, no loop fits
+        if (std::int64_t{high[k]} - low_[k] > static_cast<std::int64_t>(kMostCells))
+            return; // without cells, no loop fits
     }
     if (period_ > 0) low_[0] = 0;
     width_ = period_ > 0 ? period_ : high[0] - low_[0] + 1;

@@ -28,6 +28,11 @@ struct RingWidths {
     [[nodiscard]] int changing(double height) const;
 };
 
+/// Whether at least three edges lie between any two ends of a row along a loop. At each end, the row's inner
+/// side has one edge less on both adjacent sides, so a side of three edges keeps one edge.
+/// @param ends  positions in the loop, ascending. @param n  number of nodes of the loop.
+bool ends_apart(std::span<const std::size_t> ends, std::size_t n);
+
 /// @pre  each loop has a node. O(outer nodes × inner nodes).
 RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& outer,
                        const std::vector<Index>& inner);
