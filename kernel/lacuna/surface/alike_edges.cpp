@@ -17,13 +17,6 @@ namespace lacuna::surface {
 
 using namespace topology;
 
-namespace {
-
-/// Faces with more edges are not compared, because the cost is quadratic in the number of edges. Heuristic.
-constexpr std::size_t kMostEdges = 512;
-
-} // namespace
-
 std::vector<std::vector<EdgeId>> alike_edges(const Model& model, FaceId face)
 {
     const Vec3 normal = face_area_vector(model, face).stableNormalized();
@@ -37,7 +30,6 @@ std::vector<std::vector<EdgeId>> alike_edges(const Model& model, FaceId face)
     for (const Loop& loop : border_loops(model, face)) {
         std::vector<Index>& cycle = region.loops.emplace_back();
         for (const EdgeUse& use : loop.uses) {
-            if (edges.size() == kMostEdges) return {};
             const std::vector<Vec3> points = edge_points(model, use.edge, shares);
             for (std::size_t i = 0; i < kSamplesPerSide; ++i) {
                 cycle.push_back(static_cast<Index>(region.points.size()));

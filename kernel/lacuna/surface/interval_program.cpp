@@ -16,7 +16,7 @@ namespace lacuna::surface {
 namespace {
 
 /// Maximum number of free variables for which pairs of vectors are tried. A board of 32 × 32 mapped faces has
-/// 64. A larger value gives better numbers but takes longer. Heuristic.
+/// 64. With a larger value, numbers of lower cost are found, which takes longer. Heuristic.
 constexpr std::size_t kByTwos = 64;
 /// Additional cost of sides whose length is outside the accepted range. It is multiplied by the wanted number
 /// of sides and by the relative excess. Heuristic.
@@ -28,10 +28,10 @@ constexpr std::int64_t kMostCoefficient = 1 << 20;
 double wish_cost(double n, double wanted, double weight)
 {
     n = std::max(n, 0.5);
-    const double longer = wanted / n; // length over wanted length
+    // The excess of a length out of range, relative to the end of the range, times the wanted number.
     const double out = std::max(
-        {0.0, quads::kShortestOfSize / longer - 1, longer / quads::kLongestOfSize - 1});
-    return weight * ((n - wanted) * (n - wanted) / n + kOutOfSize * wanted * out);
+        {0.0, quads::kShortestOfSize * n - wanted, wanted * (wanted / n / quads::kLongestOfSize - 1)});
+    return weight * ((n - wanted) * (n - wanted) / n + kOutOfSize * out);
 }
 
 /// Equations with common variables, renumbered, in reduced row echelon form.

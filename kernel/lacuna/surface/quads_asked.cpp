@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/quads_asked.h>
 
+#include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -16,11 +17,6 @@ using namespace topology;
 
 namespace {
 
-/// The size counts as uniform on a facet or side if the ratio of its values there is at most this. Heuristic.
-constexpr double kOneSize = 1.5;
-/// Facets and sides are not subdivided if they are shorter than this multiple of the size.
-constexpr double kFewSides = 2;
-
 using Facet = std::array<Vec3, 3>;
 using Segment = std::array<Vec3, 2>;
 
@@ -31,8 +27,8 @@ Vec3 middle(const Segment& s) { return (s[0] + s[1]) / 2; }
 double asked_by(double h, const Facet& f) { return (f[1] - f[0]).cross(f[2] - f[0]).norm() / 2 / (h * h); }
 double asked_by(double h, const Segment& s) { return (s[1] - s[0]).norm() / h; }
 
-/// Whether the size is uniform on a facet or segment, according to its values at the corners and the
-/// midpoint.
+/// Whether a side of the largest size on a facet or segment is accepted where the size is smallest, according
+/// to the sizes at the corners and the midpoint.
 template <std::size_t n>
 bool is_even(const std::array<Vec3, n>& part, const SizeField& size, double in_middle)
 {
@@ -42,11 +38,12 @@ bool is_even(const std::array<Vec3, n>& part, const SizeField& size, double in_m
         least = std::min(least, here);
         most = std::max(most, here);
     }
-    return most <= kOneSize * least;
+    return most <= quads::kLongestOfSize * least;
 }
 
 /// Number of quads on a facet, or of sides on a segment, that a size field requires. The facet or segment is
-/// subdivided until the size is uniform on each part. Counting stops just above `most`.
+/// subdivided until each part is as short as the size, or the size is uniform on it. Counting stops just
+/// above `most`.
 template <std::size_t n>
 double asked_on(const std::array<Vec3, n>& whole, const SizeField& size, double most)
 {
@@ -60,7 +57,7 @@ double asked_on(const std::array<Vec3, n>& whole, const SizeField& size, double 
         std::size_t k = 0;
         for (std::size_t i = 1; i < n; ++i)
             if (side(i) > side(k)) k = i;
-        if (side(k) <= kFewSides * here || is_even(part, size, here)) {
+        if (side(k) <= here || is_even(part, size, here)) {
             asked += asked_by(here, part);
             continue;
         }

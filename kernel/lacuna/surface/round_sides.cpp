@@ -55,9 +55,9 @@ double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_
     // side.
     const double left = bulge.radius - deep;
     const double line = 2 * parts * std::hypot(left * std::sin(angle), left * (1 - std::cos(angle)));
-    program.wishes.push_back({{rows}, std::max(deep / bulge.size, kLeastWish)});
-    program.wishes.push_back({round, std::max(line / bulge.size, kLeastWish)});
-    return std::max(line / bulge.size / (2 * parts), kLeastWish);
+    program.wishes.push_back({{rows}, deep / bulge.size});
+    program.wishes.push_back({round, line / bulge.size});
+    return line / bulge.size / (2 * parts);
 }
 
 } // namespace lacuna::surface

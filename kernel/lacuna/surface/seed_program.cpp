@@ -54,7 +54,7 @@ void add_piece(EdgeId edge, SeedPiece& piece, Program& program)
     const double wanted = repairs || piece.rows() > 0 ? piece.count : piece.sides;
     const double weight = repairs && program.last->contains(edge) ? kLastWeight : 1;
     const std::size_t variable = program.intervals.variables.size();
-    program.intervals.wishes.push_back({{variable}, std::max(wanted, kLeastWish), weight});
+    program.intervals.wishes.push_back({{variable}, wanted, weight});
     program.intervals.variables.push_back(
         {std::max(piece.least, piece.rows() + 1), piece.count, piece.fixed});
     program.pieces.push_back(&piece);
@@ -87,8 +87,7 @@ void add_even(Seeds& seeds, const std::vector<EdgeId>& edges, Program& program)
 {
     std::vector<std::size_t> all = variables_of(seeds, edges, program);
     const std::size_t half = add_variable(program.intervals);
-    program.intervals.wishes.push_back(
-        {{half}, std::max(total(seeds, edges) / 2.0, kLeastWish), 1 / kDecides});
+    program.intervals.wishes.push_back({{half}, total(seeds, edges) / 2.0, 1 / kDecides});
     program.intervals.equations.push_back({std::move(all), {half, half}});
 }
 
@@ -119,8 +118,7 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
                                       variables_of(seeds, pairs[k][1], program)};
             IntervalProgram& intervals = program.intervals;
             if (mapped != grids.mapped.end()) {
-                for (const double sides : inside[k])
-                    intervals.wishes.push_back({equation.one, std::max(sides, kLeastWish)});
+                for (const double sides : inside[k]) intervals.wishes.push_back({equation.one, sides});
                 if (task.sizing.counts_across) {
                     intervals.floors.push_back({equation.one, task.sizing.gap});
                     intervals.floors.push_back({equation.other, task.sizing.gap});
@@ -244,8 +242,7 @@ std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids,
 /// @param share  factor on the wanted numbers.
 std::vector<int> solve(Program program, double share)
 {
-    for (IntervalWish& wish : program.intervals.wishes)
-        wish.wanted = std::max(share * wish.wanted, kLeastWish);
+    for (IntervalWish& wish : program.intervals.wishes) wish.wanted = share * wish.wanted;
     return solve_intervals(program.intervals);
 }
 

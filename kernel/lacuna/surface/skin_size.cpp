@@ -7,6 +7,7 @@
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/facet_curvature.h>
 #include <lacuna/surface/detail/width_sizes.h>
+#include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -24,8 +25,6 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of sides for a full turn. With 160 sides, a sphere loses 0.06 % of its volume.
-constexpr int kMostPerTurn = 160;
 /// Minimum size in narrow places, as a share of the requested size. A smaller value gives more triangles
 /// along the rims, in inverse proportion. Faces that are too narrow for this size get flat triangles.
 constexpr double kLeastShare = 0.1;

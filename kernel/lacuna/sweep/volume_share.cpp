@@ -46,9 +46,6 @@ constexpr double kSteepest = 2;
 /// So that a grid fits, the rim of an end may have fewer sides than the size requires, for example 16 instead
 /// of 24. The wall model therefore uses the size times this factor.
 constexpr double kFewer = 1.5;
-/// Resolution of the wall model: number of columns along a whole rim. A mesh with more sides per turn is not
-/// planned. A polygon of 128 sides lacks 0.04 % of the circle's area.
-constexpr int kColumns = 128;
 
 double lost_by(double turn, double side) { return turn * side * side / 12; }
 
@@ -136,7 +133,8 @@ public:
             for (const surface::RimSegment& segment : link.segments) {
                 const double length = segment.source_to - segment.source_from;
                 const bool fixed = segment.given && !divides;
-                const double fine = fixed ? 1 : std::ceil(kColumns * length / link.source.length());
+                const double fine = fixed ? 1
+                                          : std::ceil(surface::kMostPerTurn * length / link.source.length());
                 const double middle[] = {(segment.source_from + segment.source_to) / 2};
                 ring.segments.push_back({first, static_cast<int>(fine), fixed,
                                          length / size(link.source.points(middle).front()),
@@ -288,7 +286,7 @@ public:
         Sides sides{options_.curvature};
         const double quads = area_of(volume_, Role::source) / std::pow(size_(volume_.model.points[0]), 2);
         const double least = std::min(kLeastPart, std::sqrt(quads / kMostForEnds));
-        if (is_enough(sides) || is_enough({kColumns})) {
+        if (is_enough(sides) || is_enough({surface::kMostPerTurn})) {
             while (!is_enough(sides)) ++sides.per_turn;
             const int enough = sides.per_turn; // enough if creases across an end get no nodes
             while (ends_ > kLostByEnds && sides.per_turn < std::max(enough, kMostForCreases)) {
@@ -323,7 +321,7 @@ public:
         for (double lost = lost_by_numbers(sides); lost > share;) {
             const int more = std::max(sides + sides / 4 + 1, wanted);
             const double left = lost_by_numbers(more);
-            if (more > kColumns || left > kHelps * lost) break;
+            if (more > surface::kMostPerTurn || left > kHelps * lost) break;
             sides = more;
             lost = left;
         }

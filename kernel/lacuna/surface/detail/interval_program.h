@@ -24,8 +24,6 @@ struct IntervalEquation {
 /// Cost of each side by which a sum is below its floor: larger than any other term of the objective. A wish
 /// of the reciprocal weight only determines where the search starts. Heuristic.
 constexpr double kDecides = 1e6;
-/// Lower bound of a wanted number, so that the objective stays finite. Heuristic.
-constexpr double kLeastWish = 0.1;
 
 /// A wanted sum of some variables.
 struct IntervalWish {
