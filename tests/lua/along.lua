@@ -601,4 +601,11 @@ ball:add_face { name = "ball", points = { origin, X, Y, Z }, cells = { { 1, 3, 2
   3 }, { 2, 3, 4 } } }
 check.fails(function() ball:open_volume { source = { tags = { 1, 2, 3, 4 } },
   along = { vector = Z } } end, "closed")
+
+-- Turns of which a layer spans a right angle stay valid at order 2.
+for _, radius in ipairs { 1.3, 2, 4 } do
+  local turn = open(regular(4), { axis = { { -radius, 0, 0 }, Y }, angle = 270 })
+  local _, quality = sweep(turn, { layers = 3, size = 0.7, order = 2 })
+  check.that(quality.min_scaled_jacobian > 0.5, ("radius %g: %g"):format(radius, quality.min_scaled_jacobian))
+end
 check.done()

@@ -141,6 +141,25 @@ for _, sides in ipairs { { 14, 16 }, { 12, 18 }, { 16, 14 } } do
   check.near(mesh:quality().volume, outer - inner, 1e-3 * (outer - inner))
 end
 
+-- Strips whose middle is shifted across: a grid of sheared quads has 0.4 and less, so they are paved.
+for _, strip in ipairs { { 1, 0.6 }, { 1, 1 }, { 2, 0.6 }, { 2, 1 } } do
+  local height, reach = strip[1], strip[2]
+  local points, cells = {}, {}
+  for i = 0, 40 do
+    local x = i / 10
+    local u = (x - 2) / (2 * reach)
+    local shift = math.abs(u) < 1 and -(1 + math.cos(math.pi * u)) or 0
+    points[#points + 1], points[#points + 2] = { x, shift, 0 }, { x, shift + height, 0 }
+    if i > 0 then cells[i] = { 2 * i - 1, 2 * i + 1, 2 * i + 2, 2 * i } end
+  end
+  local model = lacuna.model()
+  model:add_face { name = "strip", points = points, cells = cells }
+  local void = model:open_volume { source = "strip", along = { vector = { 0, 0, 1 } } }
+  local quality = void:sweep { size = 0.3 }:quality()
+  check.that(quality.min_scaled_jacobian > 0.7, ("a strip %g high: %g"):format(height,
+    quality.min_scaled_jacobian))
+end
+
 check.fails(function() disc():sweep { layers = 1, size = 0.1, rows = 0 } end, "rows")
 check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = -1 } end, "row_height")
 check.fails(function() disc():sweep { layers = 1, size = 0.1, row_height = function() return 0 end } end,

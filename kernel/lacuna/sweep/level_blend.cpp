@@ -141,7 +141,9 @@ ColumnWindow column_window(int layers, int layer)
 
 Vec3 column_bend(std::span<const Vec3> column, std::size_t low)
 {
-    constexpr double kMost = 0.2; // share of the side's length; from a quarter on, cells invert
+    // Share of the side's length; from a quarter on, cells invert. Without the limit, the least scaled
+    // Jacobian of a turn of 270° in three layers is 0.29 instead of 0.60.
+    constexpr double kMost = 0.2;
     const std::size_t count = column.size();
     std::array<double, ColumnWindow::kMost> t{};
     for (std::size_t i = 1; i < count; ++i) t[i] = t[i - 1] + (column[i] - column[i - 1]).norm();
