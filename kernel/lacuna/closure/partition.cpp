@@ -13,7 +13,6 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/closure/shared/steps.h>
-
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>

@@ -91,7 +91,8 @@ struct JoinedBefore {
 ///                 need not match the faces of these elements.
 /// @param before   data of meshes that joined earlier; updated with this mesh. A mesh of the same region
 ///                 extends that region, and groups with equal names become one set. Null: there are none.
-/// @throw InvalidInput "io.not_conformal"  the mesh lacks quads of a face of the deck; gives counts.
+/// @throw InvalidInput "io.not_conformal"  the mesh lacks quads of a face of the deck, or lies on a face with
+///                                         other quads; gives counts.
 ///                     "io.nodes_coincide" elements next to the void use both of two coincident nodes; names
 ///                                         both.
 ///                     "io.other_model"    a patch belongs to no face of the model.

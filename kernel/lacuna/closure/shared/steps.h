@@ -13,7 +13,7 @@ namespace lacuna::closure {
 bool has_steps(const topology::OpenVolume& volume, const RunContext& context = {});
 
 /// Whether a face of an end is an end with walls (`is_end_with_walls()`), and the end has steps once the
-/// rounds of this face are divided.
+/// rounds of this face are divided. A face whose whole rim meets walls at corners is an end alone.
 bool has_round_steps(const topology::OpenVolume& volume, const RunContext& context = {});
 
 /// A piece of a cut volume.
