@@ -71,4 +71,18 @@ for name, shape in pairs(shapes) do
     end
   end
 end
+
+-- Nodes that coincide by accident, on an edge that is divided otherwise, do not join a part to a deck.
+do
+  local deck = params.scratch .. "/base.inp"
+  lacuna.load(file_of("base", "Box(1) = {0,0,0,6,5,4};")):open_volume { name = "base" }
+      :sweep { size = 1 }:write(deck)
+  local both = lacuna.load { deck, file_of("beside", "Box(1) = {6,0,4,3,3,3};") }
+  local faces = {}
+  for _, face in ipairs(both:faces()) do if not face.has_mesh then faces[#faces + 1] = face end end
+  local mesh = both:open_volume { faces = faces, name = "part" }:sweep { size = 0.7 }
+  local joined = params.scratch .. "/lone.inp"
+  check.fails(function() mesh:write(joined, { with = both }) end, "no sides of elements", "tie")
+  check.that(not check.exists(joined))
+end
 check.done()

@@ -53,7 +53,10 @@ public:
     {
         match();
         check_patches(gone);
-        if (std::ranges::find(gone, true) == gone.end()) check_cracks();
+        if (std::ranges::find(gone, true) == gone.end()) {
+            check_quads_on_deck();
+            check_lone_nodes();
+        }
         std::vector<Index> points(mesh_.nodes.size(), -1);
         for (std::size_t n = 0; n < points.size(); ++n) points[n] = point_of(n);
         join_middles(deck_, mesh_, matched_, kSamePlace * model_.diagonal, scale_, points);
@@ -265,58 +268,83 @@ private:
         }
     }
 
-    /// Check that the mesh touches the deck only where they share elements' faces: that no more than one node
-    /// is common where no side is, and that no other quad of the skin lies on the deck.
-    void check_cracks() const
+    /// Check that at most one node of the mesh is a node of the deck where no side of an element is common.
+    void check_lone_nodes() const
     {
         const auto is_alone = [&](Index node) {
             return known_[index(node)] < 0 && !candidates_[index(node)].empty() &&
                    by_face_[index(node)][0] < 0 && by_side_[index(node)][0] < 0;
         };
-        std::set<int> own; // faces on which patches of the mesh lie
-        for (const mesh::SkinPatch& patch : mesh_.patches) own.insert(patch.face);
-        const NodesAt of_deck = nodes_at(deck_, model_.points, kSamePlace * model_.diagonal, scale_);
-        std::vector<Triangle> facets;
-        std::vector<FaceId> face_of_facet;
-        for (const FaceId face : topology::all_faces(model_))
-            for (const Triangle& t : model_[face].triangles)
-                if (!own.contains(model_[face].tag) &&
-                    std::ranges::none_of(t, [&](Index p) { return of_deck.at(index(p)).empty(); })) {
-                    facets.push_back(t);
-                    face_of_facet.push_back(face);
-                }
-        if (facets.empty()) return;
-        const geometry::FacetTree tree(model_.points, facets);
-        const double near = model_.tolerance * model_.tolerance;
-        std::map<FaceId, std::size_t> quads;
+        const auto alone = std::ranges::count_if(skin_, is_alone);
+        if (alone < 2) return;
+        const Vec3& p = mesh_.nodes[index(*std::ranges::find_if(skin_, is_alone))];
+        throw InvalidInput(
+            Message("io.not_conformal",
+                    "{} nodes of the mesh lie on nodes of the deck, such as the one at ({}, {}, {}), but no "
+                    "sides of elements there are common",
+                    found(alone), p.x(), p.y(), p.z())
+                .remedy(
+                    "name the deck's faces there among the volume's, or write the mesh without 'with' and "
+                    "tie it to the deck"));
+    }
+
+    /// Check that no quad of the mesh lies on a face of the deck without being a face of its elements.
+    void check_quads_on_deck() const
+    {
+        std::vector<Vec3> centres; // of the quads that no element shares
+        Eigen::AlignedBox3d box;
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             if (matched_[i]) continue;
             const Quad quad = skin_quad(mesh_, i).nodes;
             const std::size_t corners = quad[3] < 0 ? 3 : 4;
             Vec3 centre = Vec3::Zero();
             for (std::size_t k = 0; k < corners; ++k) centre += mesh_.nodes[index(quad[k])];
-            const auto hit = tree.closest(centre / static_cast<double>(corners), near);
+            centres.emplace_back(centre / static_cast<double>(corners));
+            box.extend(centres.back());
+        }
+        if (centres.empty()) return;
+        box.min().array() -= model_.tolerance;
+        box.max().array() += model_.tolerance;
+        std::set<int> own; // faces on which patches of the mesh lie
+        for (const mesh::SkinPatch& patch : mesh_.patches) own.insert(patch.face);
+        std::vector<Triangle> near;
+        std::vector<Vec3> corners;
+        std::vector<FaceId> face_of;
+        for (const FaceId face : topology::all_faces(model_)) {
+            if (own.contains(model_[face].tag)) continue;
+            for (const Triangle& t : model_[face].triangles) {
+                Eigen::AlignedBox3d around;
+                for (const Index p : t) around.extend(model_.at(p));
+                if (!box.intersects(around)) continue;
+                near.push_back(t);
+                face_of.push_back(face);
+                for (const Index p : t) corners.push_back(model_.at(p));
+            }
+        }
+        const NodesAt of_deck = nodes_at(deck_, corners, kSamePlace * model_.diagonal, scale_);
+        std::vector<Triangle> facets;
+        std::vector<FaceId> face_of_facet;
+        for (std::size_t t = 0; t < near.size(); ++t) {
+            if (of_deck.at(3 * t).empty() || of_deck.at(3 * t + 1).empty() || of_deck.at(3 * t + 2).empty())
+                continue;
+            facets.push_back(near[t]);
+            face_of_facet.push_back(face_of[t]);
+        }
+        std::map<FaceId, std::size_t> quads;
+        const geometry::FacetTree tree(model_.points, facets);
+        for (const Vec3& centre : centres) {
+            const auto hit = tree.closest(centre, model_.tolerance * model_.tolerance);
             if (hit.triangle >= 0) ++quads[face_of_facet[index(hit.triangle)]];
         }
-        if (!quads.empty()) {
-            const auto [face, count] = *quads.begin();
-            throw InvalidInput(
-                Message("io.not_conformal",
-                        "{} of the mesh's quads lie on {} of the deck, but are no faces of its elements",
-                        found(count), topology::entity_of(model_, face))
-                    .remedy("name that face among the volume's, in place of the one that lies on it, or "
-                            "write the mesh without 'with' and tie it to the deck"));
-        }
-        if (const auto alone = std::ranges::count_if(skin_, is_alone); alone > 1) {
-            const Vec3& p = mesh_.nodes[index(*std::ranges::find_if(skin_, is_alone))];
-            throw InvalidInput(
-                Message("io.not_conformal",
-                        "{} nodes of the mesh lie on nodes of the deck, such as the one at ({}, {}, {}), "
-                        "but no sides of elements there are common",
-                        found(alone), p.x(), p.y(), p.z())
-                    .remedy("name the deck's faces there among the volume's, or write the mesh without "
-                            "'with' and tie it to the deck"));
-        }
+        if (quads.empty()) return;
+        const auto [face, count] = *quads.begin();
+        throw InvalidInput(
+            Message("io.not_conformal",
+                    "{} of the mesh's quads lie on {} of the deck, but are no faces of its elements",
+                    found(count), topology::entity_of(model_, face))
+                .remedy(
+                    "name that face among the volume's, in place of the one that lies on it, or write the "
+                    "mesh without 'with' and tie it to the deck"));
     }
 
     /// The model's face on which a patch lies; null for a patch of a void face.
