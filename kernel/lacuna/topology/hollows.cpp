@@ -285,8 +285,17 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
         if (face.origin == Origin::given) own.insert(face.tag);
     std::vector<FaceId> others = outer_faces(model);
     std::erase_if(others, [&](FaceId face) { return own.contains(model[face].tag); });
+    Eigen::AlignedBox3d box;
+    for (const Face& face : volume.faces)
+        for (const Index p : corners_of(face)) box.extend(volume.at(p));
+    const auto may_be_inside = [&](FaceId face) {
+        return std::ranges::any_of(model[face].triangles, [&](const Triangle& t) {
+            const Vec3 centre = facet_centre(model, t);
+            return (centre.array() > box.min().array()).all() && (centre.array() < box.max().array()).all();
+        });
+    };
     std::vector<FaceId> found;
-    if (others.empty()) return found;
+    if (std::ranges::none_of(others, may_be_inside)) return found;
     const geometry::FacetTree tree(volume.points, facets_of(volume, all_faces(volume)), context);
     for (const std::vector<FaceId>& part : connected_parts(model, others)) {
         check_cancelled(context);
