@@ -176,8 +176,9 @@ void add_merged(CadFiles& files, std::size_t first, const std::string& folder, c
             if (std::ranges::find(contents, wanted.name, &SentFile::name) != contents.end()) continue;
             if (files.descriptors.size() == cad_protocol::kMostDescriptors)
                 throw InvalidInput(Message("cad.script",
-                                           "{}, line {}: the script includes more than {} files", own,
-                                           wanted.line, needed(cad_protocol::kMostDescriptors - 1))
+                                           "{}, line {}: with the files that scripts include, more than {} "
+                                           "files are read at once",
+                                           own, wanted.line, needed(cad_protocol::kMostDescriptors))
                                        .remedy("merge some of these files into one"));
             if (::access((folder + wanted.name).c_str(), F_OK) != 0) {
                 throw InvalidInput(

@@ -18,6 +18,7 @@
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/topology/shared/cone_shape.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
 
@@ -564,7 +565,8 @@ public:
     bool is_new(const std::vector<StepPiece>& pieces)
     {
         std::vector<Vec3> own;
-        for (const StepPiece& piece : pieces) own.push_back(centroid_of(piece.volume.model));
+        for (const StepPiece& piece : pieces)
+            own.push_back(centroid_of(piece.volume.model, all_faces(piece.volume.model)));
         const auto is_same = [&](const std::vector<Vec3>& other) {
             return other.size() == own.size() && std::ranges::all_of(own, [&](const Vec3& p) {
                        return std::ranges::any_of(other,
@@ -577,18 +579,6 @@ public:
     }
 
 private:
-    static Vec3 centroid_of(const Model& model)
-    {
-        Vec3 sum = Vec3::Zero();
-        double area = 0;
-        for (const FaceId face : all_faces(model)) {
-            const double own = face_area(model, face);
-            sum += own * face_centroid(model, face);
-            area += own;
-        }
-        return sum / area;
-    }
-
     double near_;
     std::vector<std::vector<Vec3>> known_;
 };

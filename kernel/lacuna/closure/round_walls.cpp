@@ -475,6 +475,9 @@ std::optional<geometry::Plane> plane_beyond(const Model& model, const std::vecto
         const double apart = std::max(height(low), -height(high)); // negative if the plane crosses the rim
         const auto is_inside = [&](const Vec3& p) { return distance_to_axis(rim.base, p) < rim.radius; };
         const auto inside = std::ranges::count_if(places, is_inside);
+        if (plane.normal.cross(rim.base.normal).norm() > kParallel || apart <= model.tolerance ||
+            apart >= distance || (inside > 0 && inside < std::ssize(places)))
+            continue;
         const bool along = std::ranges::all_of(loops[l].uses, [&](const EdgeUse& use) {
             return std::ranges::all_of(model.uses_of_edge(use.edge), [&](const FaceUse& by) {
                 return std::ranges::all_of(facet_normals(model, by.face).normals, [&](const Vec3& n) {
@@ -482,9 +485,7 @@ std::optional<geometry::Plane> plane_beyond(const Model& model, const std::vecto
                 });
             });
         });
-        if (!along || plane.normal.cross(rim.base.normal).norm() > kParallel || apart <= model.tolerance ||
-            apart >= distance || (inside > 0 && inside < std::ssize(places)))
-            continue;
+        if (!along) continue;
         nearest = plane;
         distance = apart;
     }

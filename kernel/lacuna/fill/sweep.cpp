@@ -347,9 +347,11 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
     const bool mixed = asked.options.fallback == sweep::Fallback::mixed;
     if (mixed) request.options.fallback = sweep::Fallback::none;
     const bool cuts = may_cut(volume, mixed);
+    bool told = volume.closure.has_value(); // whether a sweep has logged what closing the volume assumes
     for (std::size_t next = 0;; ++next) {
         const Volume& now = other ? *other : volume;
         const bool pieces = has_pieces(now, context);
+        told = told || !pieces;
         const auto note_failure = [&](const Error& error) {
             if (!first && ways == 0 && !cuts) throw;
             if (!first) first = std::current_exception();
@@ -374,9 +376,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
         }
         if (next == ways) {
             std::optional<Filled> filled;
-            if (cuts)
-                filled = sweep_in_pieces(volume, *why, volume.closure || !has_pieces(volume, context), asked,
-                                         context);
+            if (cuts) filled = sweep_in_pieces(volume, *why, told, asked, context);
             if (!filled) std::rethrow_exception(first);
             std::vector<std::string>& report = report_of(*filled);
             report.insert(report.begin(), failed.begin(), failed.end());

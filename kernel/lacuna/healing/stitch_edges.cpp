@@ -83,33 +83,23 @@ void Stitcher::merge_edges()
 bool Stitcher::take_kept_nodes(const std::vector<EdgeId>& group)
 {
     bool moved = false;
-    for (const EdgeId kept : group) {
-        if (!loose_.keeps_mesh(kept)) continue;
-        for (const EdgeId e : group) {
-            if (loose_.keeps_mesh(e) || model()[e].params.empty()) continue;
+    for (const EdgeId e : group) {
+        if (loose_.keeps_mesh(e) || model()[e].params.empty()) continue;
+        for (const EdgeId kept : group) {
+            const auto along = loose_.keeps_mesh(kept) ? points_along(e, kept, tolerance_) : std::nullopt;
+            if (!along) continue;
+            std::vector<Index> nodes = model()[kept].points;
+            if (along->reversed) std::ranges::reverse(nodes);
             const std::vector<Index> points = model()[e].points;
-            for (const bool reversed : {false, true}) {
-                if (model()[e].from != model()[e].to && reversed != (model()[kept].from != model()[e].from))
-                    continue;
-                std::vector<Index> nodes = model()[kept].points;
-                std::vector<Vec3> at = track(kept).samples(), own = track(e).samples();
-                if (reversed) {
-                    std::ranges::reverse(nodes);
-                    std::ranges::reverse(at);
-                    std::ranges::reverse(own);
-                }
-                const auto places = track(e).follow(at, tolerance_, context_);
-                if (!places || !track(kept).follow(own, tolerance_, context_)) continue;
-                for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-                    const auto near = std::ranges::min_element(*places, {}, [&](const auto& place) {
-                        return std::abs(place.s - static_cast<double>(i));
-                    });
-                    loose_.join(points[i], nodes[static_cast<std::size_t>(near - places->begin())]);
-                    loose_.edge(e).params[i] = near->param;
-                }
-                moved = true;
-                break;
+            for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+                const auto near = std::ranges::min_element(along->at, {}, [&](const auto& place) {
+                    return std::abs(place.s - static_cast<double>(i));
+                });
+                loose_.join(points[i], nodes[static_cast<std::size_t>(near - along->at.begin())]);
+                loose_.edge(e).params[i] = near->param;
             }
+            moved = true;
+            break; // nodes of another mesh stay where they are
         }
     }
     return moved;
@@ -164,18 +154,16 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
     std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
 }
 
-/// Merge an edge into a bundle, if it stays close to the bundle's first edge.
-/// @param tolerance  largest distance between edges that merge.
-/// @return  whether the edge was merged
-bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
+/// The positions of an edge's points along another edge with the same ends. Empty if the edges are further
+/// apart than a tolerance.
+std::optional<Stitcher::Along> Stitcher::points_along(EdgeId first, EdgeId e, double tolerance)
 {
-    const topology::Edge& first = model()[bundle.first];
     const topology::Edge& edge = model()[e];
-    const EdgeTrack& along = track(bundle.first);
+    const EdgeTrack& along = track(first);
     const EdgeTrack& own = track(e);
     const bool closed = edge.from == edge.to;
     for (const bool reversed : {false, true}) {
-        if (!closed && reversed != (edge.from != first.from)) continue;
+        if (!closed && reversed != (edge.from != model()[first].from)) continue;
         std::vector<Vec3> samples = own.samples();
         std::vector<Vec3> samples_along = along.samples();
         if (reversed) {
@@ -184,12 +172,21 @@ bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
         }
         const auto places = along.follow(samples, tolerance, context_);
         if (!places || !own.follow(samples_along, tolerance, context_)) continue;
-        std::vector<EdgeTrack::EdgePosition> at_nodes;
+        Along result{reversed, {}};
         const std::size_t stride = own.exact() ? 2 : 1;
-        for (std::size_t i = 0; i < places->size(); i += stride) at_nodes.push_back((*places)[i]);
-        return add_nodes(bundle, e, reversed, at_nodes);
+        for (std::size_t i = 0; i < places->size(); i += stride) result.at.push_back((*places)[i]);
+        return result;
     }
-    return false;
+    return std::nullopt;
+}
+
+/// Merge an edge into a bundle, if it stays close to the bundle's first edge.
+/// @param tolerance  largest distance between edges that merge.
+/// @return  whether the edge was merged
+bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
+{
+    const auto along = points_along(bundle.first, e, tolerance);
+    return along && add_nodes(bundle, e, along->reversed, along->at);
 }
 
 /// Merge the points of an edge into the nodes of a bundle; a point without a near node becomes a new node.

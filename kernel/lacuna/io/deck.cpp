@@ -12,7 +12,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 
 namespace lacuna::io {
 namespace {
@@ -140,10 +139,16 @@ std::size_t Deck::element_count(int dimension) const
 
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale)
 {
-    // Sort the points by x, rounded down to multiples of the tolerance, and points of equal rounded x by y.
-    // Bisection by y then finds the near points quickly, even if all points have the same x.
-    std::vector<Index> order(deck.points.size());
-    std::iota(order.begin(), order.end(), Index(0));
+    // Sort the points in the box of the places by x, rounded down to multiples of the tolerance, and points
+    // of equal rounded x by y. Bisection by y then finds the near points quickly, even if all points have the
+    // same x.
+    Eigen::AlignedBox3d box;
+    for (const Vec3& place : places) box.extend(place);
+    box.min().array() -= tolerance;
+    box.max().array() += tolerance;
+    std::vector<Index> order;
+    for (std::size_t p = 0; p < deck.points.size(); ++p)
+        if (box.contains(deck.points[p] * scale)) order.push_back(static_cast<Index>(p));
     const auto cell_of = [&](double x) { return tolerance > 0 ? std::floor(x / tolerance) : x; };
     struct Key {
         double x, y;

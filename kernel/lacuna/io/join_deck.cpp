@@ -10,10 +10,13 @@
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
 #include <lacuna/io/shared/mixed_deck.h>
+#include <lacuna/topology/shared/cone_shape.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <unordered_map>
 
@@ -246,11 +249,11 @@ private:
         for (std::size_t p = 0; p < counts.size(); ++p) {
             const auto [quads, matched] = counts[p];
             const mesh::SkinPatch& patch = mesh_.patches[p];
-            const topology::Face* face = face_of(patch);
-            if (face == nullptr || matched == quads || !is_of_deck(*face)) continue;
-            const std::size_t given = face->given_quads.size();
-            const std::size_t triangles = face->triangles.size() -
-                                          std::min(2 * given, face->triangles.size());
+            const std::optional<FaceId> id = face_of(patch);
+            if (!id || matched == quads || faces_of_deck({*id}).empty()) continue;
+            const topology::Face& face = model_[*id];
+            const std::size_t given = face.given_quads.size();
+            const std::size_t triangles = face.triangles.size() - std::min(2 * given, face.triangles.size());
             const Message why(
                 "io.not_conformal",
                 "{}: only {} of the mesh's {} quads match the deck, whose elements have {} quads "
@@ -307,28 +310,20 @@ private:
         box.max().array() += model_.tolerance;
         std::set<int> own; // faces on which patches of the mesh lie
         for (const mesh::SkinPatch& patch : mesh_.patches) own.insert(patch.face);
-        std::vector<Triangle> near;
-        std::vector<Vec3> corners;
-        std::vector<FaceId> face_of;
-        for (const FaceId face : topology::all_faces(model_)) {
-            if (own.contains(model_[face].tag)) continue;
-            for (const Triangle& t : model_[face].triangles) {
-                Eigen::AlignedBox3d around;
-                for (const Index p : t) around.extend(model_.at(p));
-                if (!box.intersects(around)) continue;
-                near.push_back(t);
-                face_of.push_back(face);
-                for (const Index p : t) corners.push_back(model_.at(p));
-            }
-        }
-        const NodesAt of_deck = nodes_at(deck_, corners, kSamePlace * model_.diagonal, scale_);
+        const auto is_near = [&](const Triangle& t) {
+            Eigen::AlignedBox3d around;
+            for (const Index p : t) around.extend(model_.at(p));
+            return box.intersects(around);
+        };
+        std::vector<FaceId> near = topology::all_faces(model_);
+        std::erase_if(near, [&](FaceId face) {
+            return own.contains(model_[face].tag) || std::ranges::none_of(model_[face].triangles, is_near);
+        });
         std::vector<Triangle> facets;
         std::vector<FaceId> face_of_facet;
-        for (std::size_t t = 0; t < near.size(); ++t) {
-            if (of_deck.at(3 * t).empty() || of_deck.at(3 * t + 1).empty() || of_deck.at(3 * t + 2).empty())
-                continue;
-            facets.push_back(near[t]);
-            face_of_facet.push_back(face_of[t]);
+        for (const FaceId face : faces_of_deck(near)) {
+            std::ranges::copy_if(model_[face].triangles, std::back_inserter(facets), is_near);
+            face_of_facet.resize(facets.size(), face);
         }
         std::map<FaceId, std::size_t> quads;
         const geometry::FacetTree tree(model_.points, facets);
@@ -347,29 +342,35 @@ private:
                     "mesh without 'with' and tie it to the deck"));
     }
 
-    /// The model's face on which a patch lies; null for a patch of a void face.
-    [[nodiscard]] const topology::Face* face_of(const mesh::SkinPatch& patch) const
+    /// The model's face on which a patch lies; empty for a patch of a void face.
+    [[nodiscard]] std::optional<FaceId> face_of(const mesh::SkinPatch& patch) const
     {
-        if (patch.face == 0) return nullptr;
+        if (patch.face == 0) return std::nullopt;
         const auto found = std::ranges::find(model_.faces, patch.face, &topology::Face::tag);
         if (found == model_.faces.end())
             throw InvalidInput(Message("io.other_model",
                                        "option 'with': the mesh has {}, but the first model does not",
                                        numbered("face", patch.face))
                                    .remedy("list the model from which the volume was made as the first"));
-        return &*found;
+        return FaceId(static_cast<std::size_t>(found - model_.faces.begin()));
     }
 
-    /// Whether all points of the face are points of the deck.
-    [[nodiscard]] bool is_of_deck(const topology::Face& face) const
+    /// The faces whose points are all points of the deck.
+    [[nodiscard]] std::vector<FaceId> faces_of_deck(const std::vector<FaceId>& faces) const
     {
         std::vector<Vec3> places;
-        for (const Triangle& triangle : face.triangles)
-            for (const Index point : triangle) places.push_back(model_.points[index(point)]);
+        std::vector<std::size_t> first{0}; // place of each face, and the end
+        for (const FaceId face : faces) {
+            for (const Index p : topology::corner_points(model_[face])) places.push_back(model_.at(p));
+            first.push_back(places.size());
+        }
         const NodesAt at = nodes_at(deck_, places, kSamePlace * model_.diagonal, scale_);
-        for (std::size_t i = 0; i < places.size(); ++i)
-            if (at.at(i).empty()) return false;
-        return true;
+        std::vector<FaceId> result;
+        for (std::size_t f = 0; f < faces.size(); ++f)
+            if (std::ranges::none_of(std::views::iota(first[f], first[f + 1]),
+                                     [&](std::size_t i) { return at.at(i).empty(); }))
+                result.push_back(faces[f]);
+        return result;
     }
 
     const Deck& deck_;

@@ -38,13 +38,6 @@ Vec3 facet_centre(const Model& model, const Triangle& t)
     return (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
 }
 
-/// Whether a shell is an interface between two mesh regions, with material on both sides.
-bool is_between_regions(const Model& model, const std::vector<FaceId>& shell)
-{
-    return std::all_of(shell.begin(), shell.end(),
-                       [&](FaceId face) { return model[face].regions.size() > 1; });
-}
-
 /// The faces that bound one region alone. Faces between two regions of a mesh lie inside the solid.
 std::vector<FaceId> outer_faces(const Model& model)
 {

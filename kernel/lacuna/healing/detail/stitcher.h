@@ -49,6 +49,11 @@ private:
         std::vector<MergedEdge> merged;
         bool keeps_mesh = false;
     };
+    /// The positions of an edge's points along another edge.
+    struct Along {
+        bool reversed = false; ///< the edges run in opposite directions, and `at` begins at the last point
+        std::vector<EdgeTrack::EdgePosition> at;
+    };
 
     void join_vertices();
     void collapse_short_edges();
@@ -61,6 +66,7 @@ private:
     void merge_edges();
     bool take_kept_nodes(const std::vector<EdgeId>& group);
     std::vector<Bundle> bundles_of(std::vector<EdgeId> group);
+    std::optional<Along> points_along(EdgeId first, EdgeId e, double tolerance);
     bool try_add(Bundle& bundle, EdgeId e, double tolerance);
     void sew_by_vertices(std::vector<Bundle>& bundles);
     bool add_nodes(Bundle& bundle, EdgeId e, bool reversed,
