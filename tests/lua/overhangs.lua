@@ -49,6 +49,23 @@ for _, ends in ipairs { { -20, 120 }, { 0, 120 }, { -30, 100 } } do
     end
   end
 end
+-- Bare walls: a pipe that is longer than its casing, round or elliptic, with the seam of the casing anywhere.
+for member, half in ipairs { { 30, 30 }, { 40, 20 }, { 25, 22 } } do
+  for _, seam in ipairs { 0, 0.7, 2.5 } do
+    local tilt = member * 0.05
+    local model = solids("casing", ([[
+Disk(1) = {0,0,0, %g,%g};  Rotate { {0,0,1}, {0,0,0}, %g } { Surface{1}; }
+Extrude {0,0,60} { Surface{1}; }
+Cylinder(50) = {2,0,-10, 0,0,85, 8};  Rotate { {0,1,0}, {2,0,30}, %g } { Volume{50}; }
+Delete { Volume{1, 50}; }  Delete { Surface{1, 3, 5, 6}; }]]):format(half[1], half[2], seam, tilt))
+    local quality = model:open_volume {}:sweep { size = 6 }:quality()
+    local truth = 60 * math.pi * (half[1] * half[2] - 64 / math.cos(tilt))
+    check.that(math.abs(quality.volume / truth - 1) < 0.02,
+      ("casing %d, %g: %g"):format(member, seam, quality.volume))
+    check.that(quality.certified and quality.min_scaled_jacobian > 0.5, quality.min_scaled_jacobian)
+  end
+end
+
 do -- A level below the upper rim is another such plane.
   local model = sleeved(-20, 120, 0)
   local volume = volume_of(model, { walls = { shaft(model), bore(model) },

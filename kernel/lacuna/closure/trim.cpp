@@ -94,12 +94,13 @@ bool crosses_inside(const Model& model, const std::vector<FaceId>& faces, const 
     });
 }
 
-/// Whether a rim of some faces lies in the plane of a loop and encloses it.
+/// Whether another rim of some faces lies in the plane of a loop and encloses it.
 bool have_rim_around(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane,
                      const std::vector<Vec3>& loop)
 {
     return std::ranges::any_of(rims(model, faces), [&](const Rim& rim) {
         const std::vector<Vec3> places = loop_places(model, rim.uses);
+        if (std::ranges::find(places, loop.front()) != places.end()) return false; // the loop itself
         return std::ranges::all_of(
                    places,
                    [&](const Vec3& p) { return std::abs(geometry::height(plane, p)) <= model.tolerance; }) &&
