@@ -395,6 +395,34 @@ Cylinder(7) = {-15,12,0, 130,0,0, 6};  Cylinder(8) = {-15,-12,0, 130,0,0, 6};]])
   end
 end
 
+-- --- faces that continue each other ------------------------------------------------------------------------
+
+-- Nozzles that were fused to a shell: narrow faces of the shell's cylinder remain round their mouths. They
+-- are meshed with the shell's face, also where the mouth lies across the seam.
+for _, nozzle in ipairs { { 0, 1, 0 }, { 0.4, 1, 0 }, { 0, 1, 12 }, { 0, -1, 5 } } do
+  local slope, side, off = table.unpack(nozzle)
+  local axis = ("%g,%g,%g"):format(60 * slope, 0, 60 * side)
+  local model = solids("nozzle", ([[
+Cylinder(1) = {0,0,0, 120,0,0, 43};  Cylinder(2) = {0,0,0, 120,0,0, 40};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(4) = {50,%g,0, %s, 12};
+BooleanUnion(5) = { Volume{3}; Delete; }{ Volume{4}; Delete; };
+Cylinder(6) = {0,0,0, 120,0,0, 40};  Cylinder(7) = {50,%g,0, %s, 10};
+BooleanUnion(8) = { Volume{6}; Delete; }{ Volume{7}; Delete; };
+BooleanDifference(9) = { Volume{5}; Delete; }{ Volume{8}; Delete; };]]):format(off, axis, off, axis))
+  local shell = model:faces { kind = "cylinder", radius = { 39, 41 } }
+  local bore = model:faces { kind = "cylinder", radius = { 9, 11 } }
+  table.move(bore, 1, #bore, #shell + 1, shell)
+  local quality = model:open_volume { faces = shell }:sweep({ size = 7 }):quality()
+  check.that(quality.certified and quality.min_scaled_jacobian > 0.25, quality.min_scaled_jacobian)
+  local truth = 1600 * math.pi * 120
+  for i = -99.5, 99.5 do -- strips of the nozzle beyond the shell's cylinder
+    local y = i / 10
+    truth = truth + 0.2 * math.sqrt(100 - y * y) * (60 - math.sqrt(1600 - (y + off) ^ 2))
+  end
+  if slope == 0 then check.that(math.abs(quality.volume / truth - 1) < 0.01, quality.volume / truth) end
+end
+
 -- --- bores that cross --------------------------------------------------------------------------------------
 
 do

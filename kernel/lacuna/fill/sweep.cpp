@@ -15,6 +15,8 @@
 #include <lacuna/io/shared/deck_middles.h>
 #include <lacuna/surface/shared/default_size.h>
 #include <lacuna/sweep/shared/turn_at_axis.h>
+#include <lacuna/topology/shared/joined_faces.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <array>
@@ -296,6 +298,74 @@ void mesh_partitions(PieceMesher& mesher, const Volume& sealed, bool mixed, cons
         if (share > mesher.share()) mesher.mesh(std::move(pieces));
 }
 
+/// A volume whose faces that continue each other are one face, with the same ends if the user named them.
+/// Empty if there are none.
+std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& context)
+{
+    const topology::OpenVolume& open = volume.volume;
+    if (volume.along || open.full_turn || open.override_class) return std::nullopt;
+    const bool named = !volume.roles_found && !volume.no_roles;
+    std::vector<int> apart(open.role.size(), 0);
+    for (std::size_t f = 0; named && f < apart.size(); ++f) apart[f] = static_cast<int>(open.role[f]);
+    const auto joined = topology::join_continued_faces(open.model, apart, context);
+    if (!joined) return std::nullopt;
+    for (const std::vector<FaceId>& parts : joined->joined)
+        log_line(context,
+                 formatted("note: {} lie on one {} and are meshed as one face, because the cells "
+                           "cannot follow the edges between them",
+                           topology::entities_of(open.model, parts), open.model[parts.front()].kind));
+    RoleRequest request;
+    request.name = volume.name;
+    request.material = volume.material;
+    request.glued = volume.glued;
+    if (named) {
+        request.roles.emplace();
+        for (std::size_t f = 0; f < joined->parent.size(); ++f) {
+            const topology::Role role = open.role[joined->parent[f].index()];
+            (role == topology::Role::source   ? request.roles->source
+             : role == topology::Role::target ? request.roles->target
+                                              : request.roles->walls)
+                .emplace_back(f);
+        }
+    } else {
+        request.faces = topology::all_faces(joined->model);
+    }
+    RunContext quiet = context; // the notes on these faces were logged
+    quiet.log = nullptr;
+    Volume result = fill::open(joined->model, request, quiet);
+    result.decks = volume.decks;
+    result.scale = volume.scale;
+    result.unit = volume.unit;
+    result.told = true;
+    return result;
+}
+
+Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunContext& context);
+
+/// Fill a volume that neither a sweep nor cuts fill after joining its faces that continue each other. Empty
+/// if there are none, or if that fails as well; then its notes are not logged.
+std::optional<Filled> fill_joined(const Volume& volume, const SweepRequest& asked, const RunContext& context)
+{
+    std::vector<std::string> notes;
+    RunContext own = context;
+    own.log = [&](std::string_view line) { notes.emplace_back(line); };
+    try {
+        const auto joined = with_joined_faces(volume, own);
+        if (!joined) return std::nullopt;
+        SweepRequest request = asked;
+        if (request.options.fallback == sweep::Fallback::mixed)
+            request.options.fallback = sweep::Fallback::none;
+        Filled filled = sweep_or_fill(*joined, request, own);
+        for (const std::string& note : notes) log_line(context, note);
+        return filled;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        log_line(context, formatted("with faces joined: {}", error.message().text()));
+        return std::nullopt;
+    }
+}
+
 /// Mesh a volume that no single sweep fills, in pieces that can be swept. With `Fallback::mixed`, pieces that
 /// cannot be swept are filled with tetrahedra. If the volume cannot be cut into pieces, it is filled with
 /// tetrahedra as a whole.
@@ -312,6 +382,8 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     Volume sealed = sealed_whole(volume, closing);
     PieceMesher mesher(sealed, why, options, static_cast<bool>(request.options.size), context);
     mesh_partitions(mesher, sealed, mixed, context);
+    if (mesher.share() < 1)
+        if (auto filled = fill_joined(volume, request, context)) return filled;
     Filled filled;
     if (auto mesh = mesher.best()) {
         filled.mesh = std::move(*mesh);
@@ -353,7 +425,6 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
         const bool pieces = has_pieces(now, context);
         told = told || !pieces;
         const auto note_failure = [&](const Error& error) {
-            if (!first && ways == 0 && !cuts) throw;
             if (!first) first = std::current_exception();
             if (!why) why = error.message();
             if (ways == 0) return;
@@ -375,8 +446,8 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
             note_failure(error);
         }
         if (next == ways) {
-            std::optional<Filled> filled;
-            if (cuts) filled = sweep_in_pieces(volume, *why, told, asked, context);
+            std::optional<Filled> filled = cuts ? sweep_in_pieces(volume, *why, told, asked, context)
+                                                : fill_joined(volume, asked, context);
             if (!filled) std::rethrow_exception(first);
             std::vector<std::string>& report = report_of(*filled);
             report.insert(report.begin(), failed.begin(), failed.end());

@@ -32,17 +32,31 @@ using namespace topology;
 
 namespace {
 
-/// Shortest path along sides of facets from the start of the source chain to the target rim. Only the ends of
-/// the path touch the rims.
-std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangle>& facets,
-                                   const LinkingSurface& link, const RunContext& context)
+/// A path from rim to rim, along which the walls are cut open.
+struct WayUp {
+    std::vector<Index> points;
+    double from = 0; ///< position of its start on the source rim
+
+    /// The coordinate s at a position of the source rim; it jumps by 1 at the start of the path.
+    [[nodiscard]] double coordinate(double at, double length) const
+    {
+        return at / length + (at < from ? 1 : 0);
+    }
+};
+
+/// Shortest path along sides of facets to the target rim, from the first point of the source chain that has
+/// one. Only the ends of the path touch the rims. All facets at a point may have their corners on its rim.
+WayUp shortest_way_up(const Model& model, const std::vector<Triangle>& facets, const LinkingSurface& link,
+                      const RunContext& context)
 {
     std::set<Index> low, high;
-    for (const ChainNode& p : chain_nodes(model, link.source)) low.insert(p.point);
+    const std::vector<ChainNode> rim = chain_nodes(model, link.source);
+    for (const ChainNode& p : rim) low.insert(p.point);
     for (const ChainNode& p : chain_nodes(model, link.target)) high.insert(p.point);
-    const Index start = model[use_from(model, link.source.uses().front())].point;
-    std::vector<Index> way = geometry::shortest_way(model.points, facets, start, low, high, context);
-    if (!way.empty()) return way;
+    for (const ChainNode& p : rim) {
+        std::vector<Index> way = geometry::shortest_way(model.points, facets, p.point, low, high, context);
+        if (!way.empty()) return {std::move(way), p.at};
+    }
     throw NotSweepable(Message("surface.wall_broken",
                                "the facets of {} do not connect the source's rim to the target's",
                                entity_of(model, link.walls.front()))
@@ -52,7 +66,7 @@ std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangl
 /// The harmonic coordinate s with fixed values on the source rim only, and natural boundary conditions on the
 /// target rim. Its values there show how the walls themselves rotate from source to target.
 geometry::HarmonicValues natural_coordinate(const Model& model, const std::vector<Triangle>& facets,
-                                            const LinkingSurface& link, const std::vector<Index>& cut,
+                                            const LinkingSurface& link, const WayUp& cut,
                                             const RunContext& context)
 {
     geometry::HarmonicProblem problem;
@@ -62,9 +76,10 @@ geometry::HarmonicValues natural_coordinate(const Model& model, const std::vecto
     problem.fixed_values.resize(static_cast<Eigen::Index>(rim.size()), 1);
     for (std::size_t i = 0; i < rim.size(); ++i) {
         problem.fixed.push_back(rim[i].point);
-        problem.fixed_values(static_cast<Eigen::Index>(i), 0) = rim[i].at / link.source.length();
+        problem.fixed_values(static_cast<Eigen::Index>(i), 0) = cut.coordinate(rim[i].at,
+                                                                               link.source.length());
     }
-    problem.corner_turns = geometry::turns_along(facets, cut);
+    problem.corner_turns = geometry::turns_along(facets, cut.points);
     problem.period = Eigen::RowVectorXd::Ones(1);
     problem.least_energy = true;
     return geometry::solve_on_facets(problem, context);
@@ -115,7 +130,7 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
 {
     const Model& model = volume.model;
     const std::vector<Triangle> facets = topology::facets_of(model, link.walls);
-    const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
+    const WayUp cut = shortest_way_up(model, facets, link, context);
     const geometry::HarmonicValues s = natural_coordinate(model, facets, link, cut, context);
     // At each point of the target rim, take the difference between the point's share of the rim's length and
     // its coordinate s. The differences are averaged as angles on a circle.
@@ -126,7 +141,7 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
         sum += Vec2(std::cos(off), std::sin(off));
     }
     const double start = std::atan2(sum.y(), sum.x()) / kFullTurn;
-    return {(start - std::floor(start)) * length, s.at(cut.back())[0]};
+    return {(start - std::floor(start)) * length, s.at(cut.points.back())[0]};
 }
 
 double target_coordinate(const LinkingSurface& link, double target_at)
@@ -153,30 +168,30 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     const std::vector<Triangle>& facets = facets_.triangles;
     std::map<Index, Vec2> fixed;
     double end_branch = 0;
-    std::vector<Index> cut;
+    WayUp cut;
     const std::vector<ChainNode> high = chain_nodes(model, link.target);
     std::vector<Crease> upright = link.lines.empty() ? creases_of(volume, link) : std::vector<Crease>{};
     for (const LinkingLine& line : link.lines)
         upright.push_back({line.source_at, use_points(model, line.line.uses)});
     if (upright.empty()) {
         cut = shortest_way_up(model, facets, link, context);
-        const double natural = link.branch
-                                   ? *link.branch
-                                   : natural_coordinate(model, facets, link, cut, context).at(cut.back())[0];
-        const auto end = std::ranges::find_if(high,
-                                              [&](const ChainNode& p) { return p.point == cut.back(); });
+        const double natural =
+            link.branch ? *link.branch
+                        : natural_coordinate(model, facets, link, cut, context).at(cut.points.back())[0];
+        const auto end = std::ranges::find_if(
+            high, [&](const ChainNode& p) { return p.point == cut.points.back(); });
         const double wanted = target_coordinate(link, end->at);
         end_branch = wanted + std::round(natural - wanted);
         branch_ = end_branch;
     } else {
-        cut = upright.front().points;
+        cut.points = upright.front().points;
     }
     for (const ChainNode& p : chain_nodes(model, link.source))
-        fixed[p.point] = Vec2(p.at / link.source.length(), 0);
+        fixed[p.point] = Vec2(cut.coordinate(p.at, link.source.length()), 0);
     for (const ChainNode& p : high) {
         const double s = target_coordinate(link, p.at);
         const double turned = s - std::floor(s - end_branch + kRoundoff);
-        fixed[p.point] = Vec2(p.point == cut.back() ? end_branch : turned, 1);
+        fixed[p.point] = Vec2(p.point == cut.points.back() ? end_branch : turned, 1);
     }
     for (const Crease& line : upright) {
         const std::vector<double> at = geometry::arc_lengths(places_at(model, line.points));
@@ -188,7 +203,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     problem.points = model.points;
     problem.triangles = facets;
     problem.fix(fixed);
-    problem.corner_turns = geometry::turns_along(facets, cut);
+    problem.corner_turns = geometry::turns_along(facets, cut.points);
     problem.period = Eigen::RowVector2d(1, 0);
     check_cancelled(context);
     const geometry::HarmonicValues strip = geometry::solve_on_facets(problem, context);

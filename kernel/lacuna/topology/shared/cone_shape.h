@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/model.h>
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -25,6 +27,12 @@ struct ConeShape {
     Vec3 axis = Vec3::UnitZ(); ///< unit, from the apex into the cone
     double least_radius = 0;   ///< smallest radius of the face [model length]
     double largest_radius = 0; ///< largest radius of the face [model length]
+    /// Distance of a point from the surface [model length]; negative inside.
+    [[nodiscard]] double height(const Vec3& p) const
+    {
+        const double along = (p - apex).dot(axis), slope = half_angle * kDegree;
+        return (p - apex - along * axis).norm() * std::cos(slope) - along * std::sin(slope);
+    }
 };
 
 /// The cone of a face from its facets: the axis has the same angle to all normals, and apex and slope are

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/topology/shared/joined_faces.h>
+
+#include <lacuna/core/shared/constants.h>
+#include <lacuna/geometry/exact.h>
+#include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/cone_shape.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/facet_area.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace lacuna::topology {
+namespace {
+
+/// One surface that several faces share. The parameters of a part are those of its own surface, moved along u
+/// by a range of its own.
+class JoinedSurface final : public geometry::ExactSurface {
+public:
+    JoinedSurface(const Model& model, const std::vector<FaceId>& parts)
+    {
+        for (const FaceId part : parts) {
+            surfaces_.push_back(model[part].surface);
+            for (const auto& uv : model[part].uv)
+                for (const Vec2& at : uv) {
+                    low_ = std::min(low_, at.x());
+                    high_ = std::max(high_, at.x());
+                }
+        }
+    }
+
+    /// The parameters on this surface of parameters of a part's surface.
+    [[nodiscard]] Vec2 from_part(std::size_t part, Vec2 uv) const
+    {
+        uv.x() += static_cast<double>(part) * stride();
+        return uv;
+    }
+
+    void project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context) const override
+    {
+        std::vector<std::vector<std::size_t>> of_part(surfaces_.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double part = std::floor((uv[i].x() - low_) / stride() +
+                                           0.25); // in the middle of its range
+            of_part[static_cast<std::size_t>(std::clamp(part, 0.0, static_cast<double>(of_part.size()) - 1))]
+                .push_back(i);
+        }
+        for (std::size_t part = 0; part < of_part.size(); ++part) {
+            std::vector<Vec3> at;
+            std::vector<Vec2> own;
+            for (const std::size_t i : of_part[part]) {
+                at.push_back(points[i]);
+                own.emplace_back(uv[i].x() - static_cast<double>(part) * stride(), uv[i].y());
+            }
+            if (at.empty()) continue;
+            surfaces_[part]->project(at, own, context);
+            for (std::size_t k = 0; k < at.size(); ++k) {
+                points[of_part[part][k]] = at[k];
+                uv[of_part[part][k]] = from_part(part, own[k]);
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] double stride() const { return 2 * (high_ - low_); }
+
+    std::vector<std::shared_ptr<const geometry::ExactSurface>> surfaces_;
+    double low_ = kInfinity, high_ = -kInfinity; ///< range of u over all parts
+};
+
+/// The plane, cylinder, cone or sphere of a face, as the distance of a point from it. Empty for other faces.
+std::function<double(const Vec3&)> shape_of(const Model& model, FaceId face)
+{
+    if (const auto plane = plane_of(model, face))
+        return [plane](const Vec3& p) { return std::abs(geometry::height(*plane, p)); };
+    if (const auto round = round_shape(model, face))
+        return [round](const Vec3& p) { return std::abs(round->height(p)); };
+    if (const auto cone = cone_shape(model, face))
+        return [cone](const Vec3& p) { return std::abs(cone->height(p)); };
+    return {};
+}
+
+/// The largest distance of a face's corners from a shape.
+double distance(const Model& model, FaceId face, const std::function<double(const Vec3&)>& from)
+{
+    double most = 0;
+    for (const Index p : corner_points(model[face])) most = std::max(most, from(model.at(p)));
+    return most;
+}
+
+/// Whether two faces meet at an edge without a bend. Faces of one shape can only fold back onto each other.
+bool meet_smoothly(const Model& model, const FaceUse& a, const FaceUse& b, EdgeId edge)
+{
+    const std::array<Index, 2> ends{model[edge].points[0], model[edge].points[1]};
+    const auto area_beside = [&](FaceId face) -> Vec3 {
+        for (const Triangle& t : model[face].triangles)
+            if (std::ranges::all_of(ends, [&](Index p) { return std::ranges::find(t, p) != t.end(); }))
+                return facet_area_vector(model, t);
+        return Vec3::Zero();
+    };
+    return area_beside(a.face).dot(area_beside(b.face)) > 0;
+}
+
+/// Whether a face can be joined with others. The nodes of a given mesh would move.
+bool may_join(const Face& face)
+{
+    return face.origin == Origin::given && !face.keeps_nodes && face.given_quads.empty() && face.surface &&
+           face.uv.size() == face.triangles.size();
+}
+
+bool are_alike(const Face& a, const Face& b)
+{
+    return a.kind == b.kind && a.name == b.name && a.groups == b.groups && a.regions == b.regions;
+}
+
+/// The edges of a model without those between the parts of a joined face. Seams of a joined face stay only
+/// where they connect its other edges.
+/// @param group  for each face, the face that it becomes a part of
+std::vector<Edge> remaining_edges(const Model& model, const std::vector<std::size_t>& group)
+{
+    std::vector<std::size_t> parts(model.faces.size(), 0);
+    for (const std::size_t own : group) ++parts[own];
+    std::vector<char> is_seam(model.edges.size(), 0), inside(model.edges.size(), 0);
+    std::vector<char> bounds(model.vertices.size(), 0);
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const auto uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() == 2 && group[uses[0].face.index()] == group[uses[1].face.index()] &&
+            parts[group[uses[0].face.index()]] > 1)
+            (uses[0].face == uses[1].face ? is_seam : inside)[e] = 1;
+        else
+            for (const VertexId v : {model.edges[e].from, model.edges[e].to}) bounds[v.index()] = 1;
+    }
+    std::vector<Edge> kept;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const Edge& edge = model.edges[e];
+        const bool connects = bounds[edge.from.index()] != 0 && bounds[edge.to.index()] != 0;
+        if (inside[e] == 0 && (is_seam[e] == 0 || connects)) kept.push_back(edge);
+    }
+    return kept;
+}
+
+/// The faces that continue a face, after the face itself.
+std::vector<FaceId> continued(const Model& model, FaceId root, const std::function<bool(FaceId)>& is_free)
+{
+    std::vector<FaceId> parts{root};
+    if (!may_join(model[root])) return parts;
+    std::function<double(const Vec3&)> shape; // fitted where a face beside is free
+    double own = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const EdgeUse& use : uses_of(model[parts[p]])) {
+            const auto uses = model.uses_of_edge(use.edge);
+            if (uses.size() != 2) continue;
+            const FaceUse& beside = uses[uses[0].face == parts[p] ? 1 : 0];
+            if (std::ranges::find(parts, beside.face) != parts.end() || !may_join(model[beside.face]) ||
+                !are_alike(model[beside.face], model[root]) || !is_free(beside.face))
+                continue;
+            if (!shape) {
+                shape = shape_of(model, root);
+                if (!shape) return parts;
+                own = distance(model, root, shape);
+            }
+            if (distance(model, beside.face, shape) <= own + model.tolerance &&
+                meet_smoothly(model, uses[0], uses[1], use.edge))
+                parts.push_back(beside.face);
+        }
+    return parts;
+}
+
+/// One face of all parts.
+Face joined_face(const Model& model, const std::vector<FaceId>& parts)
+{
+    Face face = model[parts.front()];
+    if (parts.size() == 1) return face;
+    const auto surface = std::make_shared<JoinedSurface>(model, parts);
+    face.triangles.clear();
+    face.uv.clear();
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const Face& part = model[parts[p]];
+        if (p > 0) face.repeated_tags.push_back(part.tag);
+        face.triangles.insert(face.triangles.end(), part.triangles.begin(), part.triangles.end());
+        for (const auto& [a, b, c] : part.uv)
+            face.uv.push_back({surface->from_part(p, a), surface->from_part(p, b), surface->from_part(p, c)});
+    }
+    face.surface = surface;
+    if (face.kind == "plane") { // its facets are exact
+        face.surface = nullptr;
+        face.uv.clear();
+    }
+    return face;
+}
+
+} // namespace
+
+std::optional<JoinedFaces> join_continued_faces(const Model& model, const std::vector<int>& apart,
+                                                const RunContext& context)
+{
+    std::vector<FaceId> roots = all_faces(model);
+    std::vector<double> area;
+    for (const FaceId face : roots) area.push_back(face_area(model, face));
+    std::ranges::stable_sort(roots, std::greater{}, [&](FaceId face) { return area[face.index()]; });
+    const std::size_t none = model.faces.size();
+    std::vector<std::size_t> group(model.faces.size(), none);
+    std::vector<Face> faces;
+    JoinedFaces result;
+    for (const FaceId root : roots) {
+        if (group[root.index()] != none) continue;
+        check_cancelled(context);
+        std::vector<FaceId> parts = continued(model, root, [&](FaceId face) {
+            return group[face.index()] == none && apart[face.index()] == apart[root.index()];
+        });
+        for (const FaceId part : parts) group[part.index()] = faces.size();
+        result.parent.push_back(root);
+        faces.push_back(joined_face(model, parts));
+        if (parts.size() > 1) result.joined.push_back(std::move(parts));
+    }
+    if (result.joined.empty()) return std::nullopt;
+    ModelBuilder builder(model);
+    builder.faces = std::move(faces);
+    builder.edges = remaining_edges(model, group);
+    builder.build_loops(context);
+    const Model joined = std::move(builder).finish();
+    result.model = extract(joined, all_faces(joined));
+    return result;
+}
+
+} // namespace lacuna::topology
