@@ -111,10 +111,11 @@ it prints the quality. The words are the options of lacuna.load, open_volume, sw
   lacuna fill pipe.stl case/constant/polyMesh faces=1,2 size=2
   lacuna fill old.inp new.inp source=FLOOR walls=auto with=true
 
-Without source, target, walls and faces all faces bound the void: a closed body is filled itself, and a note
-lists the faces of its pockets and bores. Several closed bodies, such as the solids of a STEP file, become
-regions of one mesh. `lacuna info IN` and `lacuna view IN` show all faces. A list is written with commas,
-walls=4,5,6, a table as in Lua, 'layers={count=8,bias=2}'.
+Without source, target, walls and faces all faces bound the void: a closed body is filled itself, around the
+bodies inside it. Several closed bodies side by side, such as the solids of a STEP file, become regions of one
+mesh. A note lists the faces of pockets, bores and inner voids; to fill the room in a hollow box instead of
+the box, give these: faces=3,4,5. `lacuna info IN` and `lacuna view IN` show all faces. A list is written with
+commas, a table as in Lua, 'layers={count=8,bias=2}'.
 with=true joins the new cells to the deck that was read.
 )"},
 };

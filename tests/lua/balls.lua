@@ -51,6 +51,38 @@ for _, name in ipairs(names) do
   end
 end
 
+-- Bodies in a room with flat ends: cut where they turn over; the underside of a lip is a wall.
+local rooms = {
+  egg = { "Box(1) = {-20,-20,-20, 40,40,40};  Sphere(2) = {0,0,0, 10};"
+    .. "Dilate { {0,0,0}, {1, 1.2, 1.5} } { Volume{2}; }", 64e3 - 2400 * math.pi },
+  ring = { "Cylinder(1) = {0,0,0, 0,0,20, 25};  Torus(2) = {0,0,8, 14, 5};",
+    12500 * math.pi - 700 * math.pi ^ 2 },
+  tilted = { "Cylinder(1) = {0,0,0, 0,0,20, 25};  Torus(2) = {0,0,9, 14, 5};"
+    .. "Rotate { {1,0,0}, {0,0,9}, 0.02 } { Volume{2}; }", 12500 * math.pi - 700 * math.pi ^ 2 },
+  rings = { "Cylinder(1) = {0,0,0, 0,0,20, 25};  Torus(2) = {0,0,7, 18, 4};  Torus(3) = {0,0,13, 7, 4};",
+    12500 * math.pi - 800 * math.pi ^ 2 },
+  lip = { [[
+Point(1) = {0,0,0};  Point(2) = {12,0,0};  Point(3) = {15,0,3};  Point(4) = {15,0,40};  Point(5) = {14,0,46};
+Point(6) = {9,0,54};  Point(7) = {7,0,60};  Point(8) = {7,0,72};  Point(9) = {8,0,72};  Point(10) = {8,0,78};
+Point(11) = {0,0,78};  Point(12) = {12,0,3};
+Line(1) = {1,2};  Circle(2) = {2,12,3};  Line(3) = {3,4};  Spline(4) = {4,5,6,7};  Line(5) = {7,8};
+Line(6) = {8,9};  Line(7) = {9,10};  Line(8) = {10,11};  Line(9) = {11,1};
+Curve Loop(1) = {1:9};  Plane Surface(1) = {1};
+bottle[] = Extrude { {0,0,1}, {0,0,0}, 2*Pi } { Surface{1}; };
+Box(2) = {-25,-25,-8, 50,50,95};
+BooleanDifference(9) = { Volume{2}; Delete; }{ Volume{bottle[1]}; Delete; };
+Recursive Delete { Surface{1}; }]],
+    237500 - 39730 },
+}
+for name, room in pairs(rooms) do
+  local path, last = params.scratch .. "/" .. name .. ".geo", name == "rings" and 3 or 2
+  check.write(path, 'SetFactory("OpenCASCADE");\n' .. room[1] .. (name == "lip" and "" or
+    ("\nBooleanDifference(9) = { Volume{1}; Delete; }{ Volume{2:%d}; Delete; };"):format(last)))
+  local quality = lacuna.load(path):open_volume {}:sweep({ size = 3 }):quality()
+  check.near(quality.volume, room[2], 0.03 * room[2])
+  check.that(quality.certified and quality.min_scaled_jacobian > 0.3, name)
+end
+
 -- The parameters of a sphere that the poles bound may end a rounding error beyond them, where normals point
 -- inward: facets there are as large as elsewhere, and lie along the sphere.
 do

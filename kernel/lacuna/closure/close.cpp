@@ -104,11 +104,18 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
             .remedy("leave 'cap' out"));
 }
 
-/// Angle between the normals of the two ends, both taken in the direction from source to target [radian].
+/// Angle between the normals of the two ends, both taken in the direction from source to target [radian]. 0
+/// if an end faces all around, as a tube does, because it has no mean normal.
 double lean_of(const OpenVolume& volume)
 {
     const Model& model = volume.model;
     const std::vector<FaceId> source = volume.faces(Role::source), target = volume.faces(Role::target);
+    const auto faces_all_round = [&](const std::vector<FaceId>& end) {
+        double area = 0;
+        for (const FaceId face : end) area += face_area(model, face);
+        return area_vector_of(model, end).norm() < kParallel * area;
+    };
+    if (faces_all_round(source) || faces_all_round(target)) return 0;
     const Vec3 way = centroid_of(model, target) - centroid_of(model, source);
     const auto facing = [&](const std::vector<FaceId>& end) -> Vec3 {
         const Vec3 normal = area_vector_of(model, end).stableNormalized();

@@ -17,16 +17,19 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -193,6 +196,94 @@ std::vector<Vec3> axes_of(const OpenVolume& volume, bool both)
     return ways;
 }
 
+/// Heights along an axis at which smooth parts of a skin turn over, from facing along the axis to facing
+/// against it: the middle of a ball, a torus or an egg. Of a part that is parallel to the axis there, such as
+/// a capsule, the height is that of the middle.
+std::vector<double> turning_heights(const Model& model, const Vec3& axis)
+{
+    const double smooth = std::cos(kCreaseAngle * kDegree), steep = std::sin(kCreaseAngle * kDegree);
+    struct Beside {
+        FaceId face;
+        Vec3 normal;
+    };
+    struct Turn {
+        double length = 0, moment = 0; ///< of the sides of facets where a part turns over
+        bool ahead = false, behind = false;
+    };
+    struct Side {
+        FaceId face;
+        double length, height;
+    };
+    std::map<std::pair<Index, Index>, Beside> beside;
+    geometry::UnionFind parts(model.faces.size());
+    std::vector<Turn> turns(model.faces.size());
+    std::vector<Side> sides;
+    for (const FaceId face : all_faces(model))
+        for (const Triangle& t : model[face].triangles) {
+            const Vec3 normal = facet_area_vector(model, t).stableNormalized();
+            const double along = normal.dot(axis);
+            turns[face.index()].ahead |= along > steep;
+            turns[face.index()].behind |= along < -steep;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index a = t[k], b = t[(k + 1) % 3];
+                const auto [other, is_first] = beside.try_emplace(std::minmax(a, b), Beside{face, normal});
+                if (is_first || other->second.normal.dot(normal) < smooth) continue;
+                parts.unite_least(face.index(), other->second.face.index());
+                const auto [low, high] = std::minmax(along, other->second.normal.dot(axis));
+                if (low <= kRoundoff && high >= -kRoundoff)
+                    sides.push_back({face, (model.at(a) - model.at(b)).norm(),
+                                     (model.at(a) + model.at(b)).dot(axis) / 2});
+            }
+        }
+    for (std::size_t f = 0; f < turns.size(); ++f) {
+        Turn& part = turns[parts.find(f)];
+        part.ahead |= turns[f].ahead;
+        part.behind |= turns[f].behind;
+    }
+    for (const Side& side : sides) {
+        Turn& part = turns[parts.find(side.face.index())];
+        part.length += side.length;
+        part.moment += side.length * side.height;
+    }
+    std::vector<double> heights;
+    for (const Turn& part : turns) {
+        if (!part.ahead || !part.behind || !(part.length > 0)) continue;
+        const double height = part.moment / part.length;
+        if (std::ranges::none_of(
+                heights, [&](double own) { return std::abs(own - height) <= kVisible * model.diagonal; }))
+            heights.push_back(height);
+    }
+    return heights;
+}
+
+/// Cut a volume across an axis where smooth parts of its skin turn over, so that each such part becomes an
+/// end above the cut and one below. Examples: the room around a ring that lies in a cup, or around an egg in
+/// its box. Empty if no axis gives parts that can be swept or divided at their middles.
+std::vector<StepPiece> divided_where_turning(const OpenVolume& volume, std::size_t most,
+                                             const CanSweep& can_sweep, const RunContext& context)
+{
+    std::vector<Vec3> axes = axes_of(volume, true);
+    if (axes.size() > kMostTrials) axes.resize(kMostTrials);
+    for (const Vec3& axis : axes) {
+        check_cancelled(context);
+        std::vector<StepPiece> parts{{volume}};
+        // The cuts are refused if a plane passes closely beside an edge.
+        const auto cut = unless_refused([&] {
+            for (const double height : turning_heights(volume.model, axis)) {
+                const geometry::Plane plane = geometry::plane_across(height * axis, axis);
+                parts = cut_each(std::move(parts), plane, [&](const OpenVolume& part) {
+                    return cut_at_edges(part, plane, {}, 0, context);
+                });
+            }
+            return parts.size() > 1;
+        });
+        if (!cut || !*cut) continue;
+        std::vector<StepPiece> made = finished(std::move(parts), most, can_sweep, context);
+        if (!made.empty()) return made;
+    }
+    return {};
+}
+
 /// Centres of the spheres and apexes of the cones of a skin, without repetition.
 std::vector<Vec3> centres_of(const Model& model)
 {
@@ -318,7 +409,7 @@ std::vector<StepPiece> divided_through_axis(const OpenVolume& volume, const CanS
 }
 
 /// Divide a part without ends at its middle or, if no length is left to cut, at an edge between coplanar
-/// faces or at the centre of a sphere or apex of a cone.
+/// faces, where smooth parts of its skin turn over, or at the centre of a sphere or apex of a cone.
 /// @return  the number of additional pieces
 std::size_t divide(CutPart& part, std::size_t most, const CanSweep& can_sweep, const RunContext& context)
 {
@@ -326,6 +417,8 @@ std::size_t divide(CutPart& part, std::size_t most, const CanSweep& can_sweep, c
     part.blocks = divided_at_middle(part.piece.volume, most, can_sweep, context);
     if (part.blocks.empty() && !(part.left > 0))
         part.blocks = divided_at_flat_edge(part.piece.volume, most, can_sweep, context);
+    if (part.blocks.empty() && !(part.left > 0))
+        part.blocks = divided_where_turning(part.piece.volume, most, can_sweep, context);
     if (part.blocks.empty() && !(part.left > 0))
         part.blocks = divided_at_centre(part.piece.volume, most, can_sweep, context);
     return part.blocks.empty() ? 0 : part.blocks.size() - 1;
@@ -514,8 +607,34 @@ std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const Ca
     return std::nullopt;
 }
 
-/// Cut a volume at the steps of its ends along an axis (`set_ends_along()`). Example: foam around a tilted
-/// product. Empty if no axis gives pieces that can be swept.
+/// Make ledges walls: faces of an end that lie between walls that lead on along the axis and walls that lead
+/// back, such as the underside of a bottle's lip. @return whether there are any.
+bool make_ledges_walls(OpenVolume& volume, const Vec3& axis)
+{
+    const Model& model = volume.model;
+    const auto is_ledge = [&](FaceId face) {
+        bool on = false, back = false;
+        for (const EdgeUse& use : uses_of(model[face]))
+            for (const FaceUse& beside : model.uses_of_edge(use.edge)) {
+                if (beside.face == face) continue;
+                if (volume.role[beside.face.index()] != Role::wall) return false;
+                const double rise =
+                    (face_centroid(model, beside.face) - face_centroid(model, face)).dot(axis);
+                on |= rise > model.tolerance;
+                back |= rise < -model.tolerance;
+            }
+        return on && back;
+    };
+    std::vector<FaceId> ledges;
+    for (const FaceId face : all_faces(model))
+        if (volume.role[face.index()] != Role::wall && is_ledge(face)) ledges.push_back(face);
+    for (const FaceId face : ledges) volume.role[face.index()] = Role::wall;
+    return !ledges.empty();
+}
+
+/// Cut a volume at the steps of its ends along an axis (`set_ends_along()`). If that fails, ledges become
+/// walls. Examples: foam around a tilted product, or around a bottle whose lip is wider than its neck. Empty
+/// if no axis gives pieces that can be swept.
 std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
                                     const RunContext& context)
 {
@@ -523,14 +642,17 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
     face_away(away, context);
     std::vector<Vec3> axes = axes_of(away, true);
     if (axes.size() > kMostTrials) axes.resize(kMostTrials);
+    const auto suits = [&](const StepPiece& piece) {
+        return has_ends(piece.volume) && can_sweep(piece.volume);
+    };
     for (const Vec3& axis : axes) {
         check_cancelled(context);
         set_ends_along(away, axis);
         auto pieces = unless_refused([&] { return cut_steps(away, context); });
-        const auto suits = [&](const StepPiece& piece) {
-            return has_ends(piece.volume) && can_sweep(piece.volume);
-        };
         if (pieces && pieces->size() > 1 && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
+        if (!make_ledges_walls(away, axis)) continue;
+        pieces = unless_refused([&] { return cut_steps(away, context); });
+        if (pieces && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
     }
     return {};
 }
@@ -622,6 +744,7 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
     if (take_some(cut_in_steps(volume, can_sweep, context)) ||
         take_some(divided_through_axis(volume, can_sweep, context)) ||
         take_some(divided_at_middle(volume, kMostPieces, can_sweep, context)) ||
+        take_some(divided_where_turning(volume, kMostPieces, can_sweep, context)) ||
         (is_whole && take_some(divided_at_centre(volume, kMostPieces, can_sweep, context))))
         return;
     // The whole volume may have ends that were not tried yet, such as a top with its chamfers.

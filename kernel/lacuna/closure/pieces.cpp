@@ -42,9 +42,11 @@ public:
     {
         find_parts();
         std::vector<StepPiece> pieces;
-        for (const Part& part : parts_)
-            pieces.push_back(
-                {open_volume(model_, roles_of(part), context_), parted_.stacked ? steps_below(part) : 0});
+        for (const Part& part : parts_) {
+            Roles roles = roles_of(part);
+            if (has_part_without_end(roles)) roles = all_walls(part);
+            pieces.push_back({open_volume(model_, roles, context_), parted_.stacked ? steps_below(part) : 0});
+        }
         return pieces;
     }
 
@@ -134,10 +136,7 @@ private:
         std::size_t best = 0;
         double most = -1;
         for (std::size_t i = 0; i < parts_.size(); ++i) {
-            Roles roles;
-            roles.walls = parts_[i].skin;
-            roles.walls.insert(roles.walls.end(), parts_[i].partitions.begin(), parts_[i].partitions.end());
-            const Model part = open_volume(model_, roles, context_).model;
+            const Model part = open_volume(model_, all_walls(parts_[i]), context_).model;
             const geometry::FacetTree facets(part.points, facets_of(part, all_faces(part)));
             const double winding = std::abs(facets.winding_number(p));
             if (winding <= most) continue;
@@ -145,6 +144,27 @@ private:
             best = i;
         }
         return best;
+    }
+
+    [[nodiscard]] static Roles all_walls(const Part& part)
+    {
+        Roles roles;
+        roles.walls = part.skin;
+        roles.walls.insert(roles.walls.end(), part.partitions.begin(), part.partitions.end());
+        return roles;
+    }
+
+    /// Whether a piece has ends, and a body in it has neither: then the ends are to be found anew.
+    [[nodiscard]] bool has_part_without_end(const Roles& roles) const
+    {
+        std::vector<FaceId> faces = roles.source;
+        faces.insert(faces.end(), roles.target.begin(), roles.target.end());
+        if (faces.empty()) return false;
+        const std::set<FaceId> ends(faces.begin(), faces.end());
+        faces.insert(faces.end(), roles.walls.begin(), roles.walls.end());
+        return std::ranges::any_of(connected_parts(model_, faces), [&](const std::vector<FaceId>& part) {
+            return std::ranges::none_of(part, [&](FaceId face) { return ends.contains(face); });
+        });
     }
 
     /// Whether some faces share a vertex with other faces.
