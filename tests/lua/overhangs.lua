@@ -91,6 +91,45 @@ Delete { Volume{1, 50}; }  Delete { Surface{1, 3, 5, 6}; }]]):format(half[1], ha
   end
 end
 
+-- The faces of a shell mesh are oriented anyhow: a pipe still ends in the plane of a pan's rim.
+for flips = 0, 31 do
+  local model = lacuna.model()
+  local function grid(name, count, at, turned) -- count: cells along both sides
+    local points, cells = {}, {}
+    for j = 0, count[2] do
+      for i = 0, count[1] do points[#points + 1] = at(i / count[1], j / count[2]) end
+    end
+    for j = 0, count[2] - 1 do
+      for i = 1, count[1] do
+        local a = j * (count[1] + 1) + i
+        local cell = { a, a + 1, a + count[1] + 2, a + count[1] + 1 }
+        cells[#cells + 1] = turned and { cell[4], cell[3], cell[2], cell[1] } or cell
+      end
+    end
+    model:add_face { name = name, points = points, cells = cells }
+  end
+  local function pan(u, v, t) return { (120 + 20 * t) * (u - 0.5), (80 + 20 * t) * (v - 0.5), 60 * t } end
+  local function is_turned(k) return flips >> k & 1 == 1 end
+  grid("floor", { 14, 10 }, function(u, v) return pan(u, v, 0) end, is_turned(0))
+  for k = 1, 4 do
+    grid("wall", { k < 3 and 14 or 10, 6 }, function(u, t)
+      local aside = k % 2
+      if k < 3 then return pan(u, aside, t) end
+      return pan(aside, u, t)
+    end, is_turned(k))
+  end
+  local function pipe(angle, radius, z)
+    return { 10 + radius * math.cos(2 * math.pi * angle), radius * math.sin(2 * math.pi * angle), z }
+  end
+  grid("pipe", { 24, 4 }, function(u, t) return pipe(u, 9, 20 + 75 * t) end)
+  grid("end", { 24, 1 }, function(u, t) return pipe(u, 9 * t, 20) end)
+  local open = model:open_volume {}
+  open:close()
+  local high = 0
+  for _, face in ipairs(open:model():faces()) do high = math.max(high, face.box[2][3]) end
+  check.near(high, 60, 1e-6, "orientations " .. flips)
+end
+
 do -- A level below the upper rim is another such plane.
   local model = sleeved(-20, 120, 0)
   local volume = volume_of(model, { walls = { shaft(model), bore(model) },

@@ -40,10 +40,24 @@ Range heights(const Model& model, const std::vector<FaceId>& faces, const geomet
     return range;
 }
 
+/// Some faces as a model in which they are oriented alike, as their rims require; those of a shell mesh need
+/// not be. Faces that cannot be oriented stay as they are.
+Model oriented(const Model& model, const std::vector<FaceId>& faces)
+{
+    Model own = extract(model, faces);
+    const auto alike = unless_refused([&] {
+        Model turned = own;
+        orient_consistently(turned);
+        return turned;
+    });
+    return alike ? *alike : own;
+}
+
 /// The number of separate voids behind the plane that some faces bound together with the regions of the plane
 /// between their rims. Parts without a rim in the plane do not count.
-std::size_t count_voids(const Model& model, const geometry::Plane& plane)
+std::size_t count_voids(const Model& skin, const geometry::Plane& plane)
 {
+    const Model model = oriented(skin, all_faces(skin));
     const std::vector<std::vector<FaceId>> parts = connected_parts(model, all_faces(model));
     std::vector<std::vector<Vec2>> loops;
     std::vector<std::size_t> part_of; // by loop
@@ -167,18 +181,13 @@ bool is_full(const Model& model, const std::vector<FaceId>& part, const std::vec
     for (const std::vector<FaceId>& shell : connected_parts(model, all_faces(model))) {
         if (std::ranges::find(shell, part.front()) == shell.end()) continue;
         if (!rims(model, shell).empty()) return false;
-        const auto solid = unless_refused([&] {
-            Model oriented = extract(model, shell);
-            orient_consistently(oriented);
-            return oriented;
-        });
-        if (!solid) return false;
+        const Model solid = oriented(model, shell);
         std::vector<FaceId> own;
         for (std::size_t f = 0; f < shell.size(); ++f)
             if (std::ranges::find(part, shell[f]) != part.end()) own.emplace_back(f);
         // The faces are on the left of their rims.
-        return std::ranges::any_of(rims(*solid, own), [&](const Rim& other) {
-            const std::vector<Vec3> places = loop_places(*solid, other.uses);
+        return std::ranges::any_of(rims(solid, own), [&](const Rim& other) {
+            const std::vector<Vec3> places = loop_places(solid, other.uses);
             return places.size() == rim.size() && std::ranges::find(rim, places.front()) != rim.end() &&
                    geometry::newell_vector(places).dot(plane.normal) < 0;
         });
@@ -240,10 +249,16 @@ std::optional<Trimmed> trim(const Model& model, const std::vector<FaceId>& faces
     return result;
 }
 
-std::optional<Overhang> find_overhang(const Model& model, const std::vector<FaceId>& faces)
+std::optional<Overhang> find_overhang(const Model& whole, const std::vector<FaceId>& named)
 {
+    if (connected_parts(whole, named).size() < 2) return std::nullopt;
+    const Model model = oriented(whole, named);
+    const std::vector<FaceId> faces = all_faces(model);
     const std::vector<std::vector<FaceId>> parts = connected_parts(model, faces);
-    if (parts.size() < 2) return std::nullopt;
+    const auto in_whole = [&](std::vector<FaceId> own) {
+        for (FaceId& face : own) face = named[face.index()];
+        return own;
+    };
     std::vector<Eigen::AlignedBox3d> boxes(parts.size());
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const FaceId face : parts[p])
@@ -276,8 +291,9 @@ std::optional<Overhang> find_overhang(const Model& model, const std::vector<Face
                 return true;
             });
             if (is_mouth && !out.empty() && !have_rim_around(model, faces, *plane, loop) &&
-                !is_full(model, parts[around], loop, *plane))
-                return Overhang{*plane, std::move(out), face_beside(model, parts[around], rim)};
+                !is_full(whole, in_whole(parts[around]), loop, *plane))
+                return Overhang{*plane, in_whole(std::move(out)),
+                                named[face_beside(model, parts[around], rim).index()]};
         }
     return std::nullopt;
 }
