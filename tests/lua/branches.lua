@@ -3,7 +3,7 @@
 local lacuna = require "lacuna"
 local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
-local params = lacuna.params { members = check.whole and 60 or 6 }
+local params = lacuna.params { members = check.whole and 60 or 6, scratch = "." }
 
 local sides = 24 -- corners of a round mouth
 
@@ -245,6 +245,28 @@ for _, radius in ipairs { 0.4, 0.7 } do
       check.that(math.abs(found.fidelity.volume - exact) < 0.02 * exact, "paved: volume")
       ::next::
     end
+  end
+end
+
+-- Plain tees and laterals, from CAD and as facets: the crease of a wide branch fades at its sides, and facets
+-- at the ends of the junction have all corners on a rim.
+for _, angle in ipairs { 90, 60, 45 } do
+  for _, radius in ipairs { 12, 20, 24 } do
+    local file = params.scratch .. "/tee"
+    check.write(file .. ".geo", ([[SetFactory("OpenCASCADE");
+Cylinder(1) = {-150, 0, 0, 300, 0, 0, 30};
+Cylinder(2) = {0, 0, 0, %.15g, 0, %.15g, %g};
+BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]]):format(
+      160 * math.cos(math.rad(angle)), 160 * math.sin(math.rad(angle)), radius))
+    local model = lacuna.load(file .. ".geo")
+    model:open_volume():write_facets(file .. ".stl")
+    local volumes = {}
+    for _, own in ipairs { model, lacuna.load(file .. ".stl") } do
+      local quality = own:open_volume():sweep({ size = 7 }):quality()
+      check.that(quality.certified and quality.min_scaled_jacobian > 0.1, quality.min_scaled_jacobian)
+      volumes[#volumes + 1] = quality.volume
+    end
+    check.near(volumes[2], volumes[1], 0.01 * volumes[1])
   end
 end
 print(("%d meshed in %d arms, %d refused; %d of %d that turn from branch to branch meshed"):format(meshed,

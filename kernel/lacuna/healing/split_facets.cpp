@@ -38,10 +38,100 @@ struct Flood {
     Index faces = 0;
 };
 
-Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vector<Vec3>& normal,
-                  double feature, const RunContext& context)
+/// Cosine of the angle between two facets at a side. 1 if they are halves of one given quad.
+double cosine_across(const Facets& facets, const FacetSides& sides, const std::vector<Vec3>& normal,
+                     Index side, Index other)
 {
-    const double least_cosine = std::cos(std::min(feature + kFileAccuracy, std::numbers::pi));
+    const std::size_t f = index(side / 3), g = index(other / 3);
+    if (facets.quad[f] >= 0 && facets.quad[f] == facets.quad[g]) return 1;
+    return (sides.from(other) != sides.from(side) ? 1 : -1) * normal[f].dot(normal[g]);
+}
+
+double least_cosine(double feature) { return std::cos(std::min(feature + kFileAccuracy, std::numbers::pi)); }
+
+/// Closes creases that fade and come back, such as the junction of two pipes of almost the same width. From
+/// the end of a crease, the sharpest sides that go on are followed, as long as facets turn by more than half
+/// the feature angle there, up to another crease.
+class CreaseGaps {
+public:
+    CreaseGaps(const Facets& facets, const FacetSides& sides, const std::vector<Vec3>& normal, double feature)
+        : points_(facets.points), sides_(sides), cosine_(sides.segment_count(), 1)
+    {
+        const double sharp = least_cosine(feature), weak = least_cosine(feature / 2);
+        for (std::size_t s = 0; s < cosine_.size(); ++s) {
+            const auto on = sides.on(static_cast<Index>(s));
+            const bool inner = on.size() == 2 && partner(facets, sides, on[0]) >= 0;
+            cosine_[s] = inner ? cosine_across(facets, sides, normal, on[0], on[1]) : -1;
+        }
+        creases_ = incidence(points_.size(), [&](const auto& visit) {
+            for (std::size_t s = 0; s < cosine_.size(); ++s) {
+                if (!(cosine_[s] < weak)) continue;
+                const Index side = sides.on(static_cast<Index>(s)).front();
+                visit(index(sides.from(side)), static_cast<Index>(s));
+                visit(index(sides.to(side)), static_cast<Index>(s));
+            }
+        });
+        for (std::size_t s = 0; s < cosine_.size(); ++s) sharp_.push_back(cosine_[s] < sharp ? 1 : 0);
+    }
+
+    /// For each segment, whether it closes such a gap. Empty if there are none.
+    [[nodiscard]] std::vector<char> find() const
+    {
+        std::vector<char> closing;
+        for (std::size_t p = 0; p < points_.size(); ++p) {
+            const auto here = creases_.of(p);
+            if (std::ranges::count_if(here, [&](Index s) { return sharp_[index(s)] != 0; }) != 1) continue;
+            const std::vector<Index> gap = from(static_cast<Index>(p));
+            if (!gap.empty()) closing.resize(sharp_.size(), 0);
+            for (const Index s : gap) closing[index(s)] = 1;
+        }
+        return closing;
+    }
+
+private:
+    /// The segments from the end of a crease to another crease; empty if they lead nowhere.
+    [[nodiscard]] std::vector<Index> from(Index end) const
+    {
+        std::vector<Index> path;
+        const auto first = creases_.of(index(end));
+        Index last = *std::ranges::find_if(first, [&](Index s) { return sharp_[index(s)] != 0; });
+        Index at = end;
+        while (true) {
+            const Vec3 ahead = points_[index(at)] - points_[index(other_end(last, at))];
+            Index next = -1;
+            for (const Index s : creases_.of(index(at))) {
+                const Vec3 way = points_[index(other_end(s, at))] - points_[index(at)];
+                const bool goes_on = geometry::angle_between(ahead, way) <
+                                     kBendBelow * std::numbers::pi / 180;
+                if (s != last && goes_on && (next < 0 || cosine_[index(s)] < cosine_[index(next)])) next = s;
+            }
+            if (next < 0 || std::ranges::find(path, next) != path.end()) return {};
+            path.push_back(next);
+            at = other_end(next, at);
+            last = next;
+            if (std::ranges::any_of(creases_.of(index(at)), [&](Index s) { return sharp_[index(s)] != 0; }))
+                return at == end ? std::vector<Index>{} : path;
+        }
+    }
+
+    [[nodiscard]] Index other_end(Index segment, Index point) const
+    {
+        const Index side = sides_.on(segment).front();
+        return sides_.from(side) == point ? sides_.to(side) : sides_.from(side);
+    }
+
+    const std::vector<Vec3>& points_;
+    const FacetSides& sides_;
+    std::vector<double> cosine_; ///< by segment: of the angle across it; -1 at borders
+    std::vector<char> sharp_;    ///< by segment: whether faces end there
+    Incidence creases_;          ///< segments with creases at each point
+};
+
+/// @param closing  by segment: whether faces end there at any angle; may be empty
+Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vector<Vec3>& normal,
+                  double feature, const std::vector<char>& closing, const RunContext& context)
+{
+    const double least = least_cosine(feature);
     Flood flood{std::vector<Index>(facets.count(), -1), std::vector<bool>(facets.count(), false), 0};
     std::vector<Index> front;
     for (std::size_t seed = 0; seed < facets.count(); ++seed) {
@@ -60,11 +150,9 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vect
                 const Index other = partner(facets, sides, side);
                 if (other < 0) continue;
                 const Index g = other / 3;
+                if (cosine_across(facets, sides, normal, side, other) < least) continue;
+                if (!closing.empty() && closing[index(sides.segment(side))] != 0) continue;
                 const bool agree = sides.from(other) != sides.from(side);
-                const double cosine = (agree ? 1 : -1) * normal[index(f)].dot(normal[index(g)]);
-                const bool one_quad = facets.quad[index(f)] >= 0 &&
-                                      facets.quad[index(f)] == facets.quad[index(g)];
-                if (cosine < least_cosine && !one_quad) continue;
                 const bool flipped = agree ? flood.flipped[index(f)] : !flood.flipped[index(f)];
                 if (flood.face[index(g)] < 0) {
                     flood.face[index(g)] = face;
@@ -158,7 +246,7 @@ void straighten_borders(const Facets& facets, const FacetSides& sides, std::vect
 Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature, const RunContext& context)
 {
     std::vector<Vec3> normal = patch_normals(facets, sides, context);
-    Flood flood = flood_faces(facets, sides, normal, feature, context);
+    Flood flood = flood_faces(facets, sides, normal, feature, {}, context);
     std::vector<std::size_t> size(index(flood.faces), 0);
     for (const Index face : flood.face) ++size[index(face)];
     const std::vector<Vec3> before = normal;
@@ -172,7 +260,7 @@ Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature,
         borrow_normals(facets, sides, dust, normal, context);
         for (const Index f : dust) // facets without a larger adjacent face get their previous normals back
             if (normal[index(f)].isZero(0)) normal[index(f)] = before[index(f)];
-        flood = flood_faces(facets, sides, normal, feature, context);
+        flood = flood_faces(facets, sides, normal, feature, {}, context);
     }
     straighten_borders(facets, sides, normal, flood, context);
     // A small face may have lost all its facets.
@@ -460,11 +548,15 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     check_cancelled(context);
     const double face_angle = options.whole_labels ? std::numbers::pi : feature;
     const std::vector<Vec3> normal = own_normals(facets, sides, feature, context);
-    Flood flood = flood_faces(facets, sides, normal, face_angle, context);
+    Flood flood = flood_faces(facets, sides, normal, face_angle, {}, context);
     const bool noisy = !options.whole_labels &&
                        is_noisy(facets, sides, normal, flood.face, flood.flipped, feature, context);
     topology::ModelBuilder model;
-    if (noisy) flood = flood_noisy(facets, sides, feature, context);
+    if (noisy)
+        flood = flood_noisy(facets, sides, feature, context);
+    else if (!options.whole_labels)
+        if (const auto closing = CreaseGaps(facets, sides, normal, feature).find(); !closing.empty())
+            flood = flood_faces(facets, sides, normal, feature, closing, context);
     model.points = facets.points;
     model.tolerance = facets.tolerance;
     model.diagonal = facets.diagonal;

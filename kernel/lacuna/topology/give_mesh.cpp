@@ -273,10 +273,24 @@ private:
                 corner = moved(corner);
             }
         }
-        erase_facets(face, [&](std::size_t t) { return repeats(face.triangles[t]); });
+        if (erase_facets(face, [&](std::size_t t) { return repeats(face.triangles[t]); })) drop_fins(face);
         for (Quad& quad : face.given_quads) {
             for (Index& n : quad) n = moved(n);
         }
+    }
+
+    /// Remove pairs of facets with the same corners: a facet folds onto its neighbour if the points of two of
+    /// its sides became one.
+    static void drop_fins(Face& face)
+    {
+        std::map<Triangle, int> count;
+        const auto corners = [&](std::size_t t) {
+            Triangle sorted = face.triangles[t];
+            std::ranges::sort(sorted);
+            return sorted;
+        };
+        for (std::size_t t = 0; t < face.triangles.size(); ++t) ++count[corners(t)];
+        erase_facets(face, [&](std::size_t t) { return count.at(corners(t)) == 2; });
     }
 
     const Model& given_;
