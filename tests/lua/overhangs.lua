@@ -487,6 +487,38 @@ BooleanDifference(9) = { Volume{5}; Delete; }{ Volume{8}; Delete; };]]):format(o
   if slope == 0 then check.that(math.abs(quality.volume / truth - 1) < 0.01, quality.volume / truth) end
 end
 
+-- The seat of a squashed O-ring: the ring touches the floor and the lid, so that only the part of these faces
+-- beside the ring bounds the gap.
+do
+  local model = solids("seat", [[
+Cylinder(1) = {0,0,-6, 0,0,10, 45};  Cylinder(2) = {0,0,0, 0,0,4, 33.8};  Cylinder(3) = {0,0,0, 0,0,4, 26.2};
+BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
+BooleanDifference(5) = { Volume{1}; Delete; }{ Volume{4}; Delete; };
+Cylinder(6) = {0,0,4, 0,0,5, 45};
+Torus(7) = {0,0,2, 30, 2.6};  Box(8) = {-50,-50,0, 100,100,4};
+BooleanIntersection(9) = { Volume{7}; Delete; }{ Volume{8}; Delete; };]])
+  local walls = { { kind = "cylinder", radius = { 33, 34 } }, { kind = "plane", near = { 33.7, 0, 0 } },
+    { kind = "plane", near = { 33.7, 0, 4 } },
+    { kind = "torus", near = { 32.4, 0, 3 } }, { kind = "torus", near = { 32.4, 0, 1 } } }
+  local quality = model:open_volume({ walls = walls, full_turn = true }):sweep({ size = 0.7 }):quality()
+  local flat = 30 + math.sqrt(2.6 ^ 2 - 4) -- radius where the ring leaves the floor
+  local truth = math.pi * (33.8 ^ 2 - flat ^ 2) * 4
+  for k = 0, 399 do
+    local z = -2 + (k + 0.5) / 100
+    truth = truth - math.pi * ((30 + math.sqrt(2.6 ^ 2 - z * z)) ^ 2 - flat ^ 2) / 100
+  end
+  check.near(quality.volume, truth, 0.02 * truth)
+  check.that(quality.certified and quality.min_scaled_jacobian > 0.5, quality.min_scaled_jacobian)
+end
+
+-- Where a model lies does not change what is hollow in it: this pipe with a flange has no bore.
+for _, at in ipairs { "0,0,0", "100,0,0", "0,-300,50", "-70,80,400" } do
+  local model = solids("flange", ([[
+Cylinder(1) = {%s, 0,0,80, 9};  Cone(2) = {%s, 0,0,-7, 9,20};
+BooleanUnion{ Volume{1}; Delete; }{ Volume{2}; Delete; }]]):format(at, at))
+  check.equal(#model:cavities(), 0, at)
+end
+
 -- --- bores that cross --------------------------------------------------------------------------------------
 
 do

@@ -111,16 +111,17 @@ Message why_no_roles(const Model& given, const std::vector<FaceId>& faces, const
     const Model& model = volume.model;
     const std::string walls = in_braces(given, faces);
     const auto round = round_shape(model, FaceId(0));
-    const bool alone = model.faces.size() == 1 && free_edges(volume).empty();
-    if (alone && round && round->is_sphere())
+    const bool single = model.faces.size() == 1, closed = free_edges(volume).empty();
+    if (single && closed && round && round->is_sphere())
         return Message("topology.sphere", "{} is a whole sphere, which has no ends",
                        entities_of(given, faces))
             .remedy("cut it in two by open_volume{{ walls = {} }}:{} and open each piece with "
                     "piece:model():open_volume()",
                     walls, cut_in_words(model, round->centre, Vec3::UnitZ()));
-    if (alone)
-        return Message("topology.no_roles", "{} is the whole skin, and a single face has no ends",
-                       entities_of(given, faces))
+    if (single)
+        return Message("topology.no_roles", "{} is the {}", entities_of(given, faces),
+                       closed ? "whole skin, and a single face has no ends"
+                              : "only face, and it is no tube between two ends")
             .remedy("give its sides as faces: load it with a smaller 'feature_angle', or, in a recipe, call "
                     "one add_face for each");
     const std::string cut = cut_at_concave_edge(volume, context);

@@ -198,7 +198,8 @@ std::vector<Vec3> axes_of(const OpenVolume& volume, bool both)
 
 /// Heights along an axis at which smooth parts of a skin turn over, from facing along the axis to facing
 /// against it: the middle of a ball, a torus or an egg. Of a part that is parallel to the axis there, such as
-/// a capsule, the height is that of the middle.
+/// a capsule, the height is that of the middle. Parts whose rims pass that height, such as bores across the
+/// axis, do not count.
 std::vector<double> turning_heights(const Model& model, const Vec3& axis)
 {
     const double smooth = std::cos(kCreaseAngle * kDegree), steep = std::sin(kCreaseAngle * kDegree);
@@ -209,6 +210,7 @@ std::vector<double> turning_heights(const Model& model, const Vec3& axis)
     struct Turn {
         double length = 0, moment = 0; ///< of the sides of facets where a part turns over
         bool ahead = false, behind = false;
+        bool crosses_rim = false; ///< whether an edge between the part and others passes that height
     };
     struct Side {
         FaceId face;
@@ -245,9 +247,21 @@ std::vector<double> turning_heights(const Model& model, const Vec3& axis)
         part.length += side.length;
         part.moment += side.length * side.height;
     }
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const auto height = [&](Index p) { return model.at(p).dot(axis); };
+        const auto [low, high] = std::ranges::minmax(model.edges[e].points, {}, height);
+        for (const FaceUse& use : model.uses_of_edge(EdgeId(e))) {
+            Turn& part = turns[parts.find(use.face.index())];
+            const bool is_rim = std::ranges::any_of(model.uses_of_edge(EdgeId(e)), [&](const FaceUse& other) {
+                return parts.find(other.face.index()) != parts.find(use.face.index());
+            });
+            const double at = part.moment / part.length;
+            part.crosses_rim |= is_rim && height(low) < at && height(high) > at;
+        }
+    }
     std::vector<double> heights;
     for (const Turn& part : turns) {
-        if (!part.ahead || !part.behind || !(part.length > 0)) continue;
+        if (!part.ahead || !part.behind || part.crosses_rim || !(part.length > 0)) continue;
         const double height = part.moment / part.length;
         if (std::ranges::none_of(
                 heights, [&](double own) { return std::abs(own - height) <= kVisible * model.diagonal; }))

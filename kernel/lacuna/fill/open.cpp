@@ -481,7 +481,8 @@ Volume open_joined(const Model& model, const RoleRequest& request, const RunCont
 
 Volume open_named(const Model& model, const RoleRequest& request, const RunContext& context)
 {
-    if (request.along || request.full_turn) return open_apart(model, request, context);
+    if (request.along) return open_apart(model, request, context);
+    if (request.full_turn) return open_joined(model, request, context);
     const std::vector<FaceId> named = named_faces(model, request);
     report_progress(context, "roles");
     auto left = request.find_walls ? leave_out_other_bodies(model, named, context) : std::nullopt;

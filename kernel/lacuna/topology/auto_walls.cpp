@@ -169,10 +169,7 @@ private:
         if (choice.free_length > 0) middle /= choice.free_length;
         Model part = extract(model_, faces);
         orient_consistently(part);
-        const std::vector<FaceId> all = all_faces(part);
-        Vec3 area = Vec3::Zero();
-        for (const FaceId face : all) area += face_area_vector(part, face);
-        choice.volume = std::abs(volume_integral(part, all) - middle.dot(area) / 3);
+        choice.volume = std::abs(volume_of_cones(part, all_faces(part), middle));
         found_.push_back(std::move(choice));
     }
 

@@ -67,13 +67,6 @@ std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
     return turned;
 }
 
-/// The volume that faces enclose, with their rims closed by cones to the centre of the faces. Negative if the
-/// faces are oriented towards the space between them.
-double capped_volume(const Model& model, const std::vector<FaceId>& faces)
-{
-    return volume_integral(model, faces) - centroid_of(model, faces).dot(area_vector_of(model, faces)) / 3;
-}
-
 /// Largest coordinate of the faces' points along a direction.
 double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& way)
 {
@@ -195,7 +188,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
         std::sort(faces.begin(), faces.end());
         const bool flat = std::all_of(faces.begin(), faces.end(),
                                       [&](FaceId face) { return model[face].kind == "plane"; });
-        const double volume = -capped_volume(model, faces);
+        const double volume = -volume_of_cones(model, faces, centroid_of(model, faces));
         if ((flat && faces.size() < 3) || !(volume > 0)) continue;
         const std::size_t mouths = rims(model, faces).size();
         for (FaceId& face : faces) face = outer[face.index()];

@@ -385,12 +385,16 @@ std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::
 
 double volume_integral(const Model& model, const std::vector<FaceId>& faces)
 {
-    if (faces.empty()) return 0;
-    const Vec3 origin = model.at(model[faces.front()].triangles.front()[0]);
+    return faces.empty() ? 0
+                         : volume_of_cones(model, faces, model.at(model[faces.front()].triangles.front()[0]));
+}
+
+double volume_of_cones(const Model& model, const std::vector<FaceId>& faces, const Vec3& apex)
+{
     double sum = 0;
     for (const FaceId face : faces) {
         for (const Triangle& t : model[face].triangles) {
-            sum += (model.at(t[0]) - origin).dot((model.at(t[1]) - origin).cross(model.at(t[2]) - origin));
+            sum += (model.at(t[0]) - apex).dot((model.at(t[1]) - apex).cross(model.at(t[2]) - apex));
         }
     }
     return sum / 6;

@@ -82,6 +82,10 @@ void flip_faces(Model& model, const std::vector<FaceId>& faces);
 /// a closed skin [model length³].
 double volume_integral(const Model& model, const std::vector<FaceId>& faces);
 
+/// The volume between the facets and an apex: what the faces enclose if their rims are closed by cones to the
+/// apex [model length³]. Negative where the facets face the apex.
+double volume_of_cones(const Model& model, const std::vector<FaceId>& faces, const Vec3& apex);
+
 /// A closed chain along the border of a set of faces, with the faces on its left.
 struct Rim {
     std::vector<EdgeUse> uses;
