@@ -339,7 +339,7 @@
 
 ---@class lacuna.Cavity
 ---@field kind "pocket"|"bore"|"slot"|"inner void"
----@field faces integer[] tags, for open_volume{ faces = … }
+---@field faces integer[] tags, for open_volume{ faces = … }; with those of the bodies in it
 ---@field class lacuna.Class
 ---@field volume number volume of the sealed cavity [model length³]
 

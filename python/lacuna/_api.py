@@ -84,7 +84,7 @@ class FaceInfo(Table):
 
 class Cavity(Table):
     """kind: "pocket" | "bore" | "slot" | "inner void"
-    faces: list[int]; tags, for open_volume(faces=…)
+    faces: list[int]; tags, for open_volume(faces=…); with those of the bodies in it
     class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"
     volume: float; volume of the sealed cavity [model length³]
     """

@@ -65,25 +65,31 @@ std::optional<std::vector<Reading>> only_reading(const Model& model, const Candi
     return readings;
 }
 
-Cavity cavity_of(const Candidate& candidate, const Reading& reading)
+/// A cavity with the faces of the model's other parts that lie in it.
+/// @param skin  the skin of the cavity, sealed if it can be sealed.
+Cavity with_bodies(const Model& model, Cavity cavity, const Model& skin, const RunContext& context)
 {
-    const VolumeClass value = reading.classification.value;
-    return {word(value, candidate.mouths), candidate.faces, value, reading.enclosed};
+    const std::vector<FaceId> inside = bodies_inside(model, skin, context);
+    if (inside.empty()) return cavity;
+    const std::vector<FaceId> own = cavity.faces;
+    for (const std::vector<FaceId>& part : connected_parts(model, all_faces(model))) {
+        if (std::ranges::find_first_of(part, inside) == part.end() ||
+            std::ranges::find_first_of(part, own) != part.end())
+            continue;
+        cavity.has_bodies = true;
+        cavity.faces.insert(cavity.faces.end(), part.begin(), part.end());
+    }
+    std::ranges::sort(cavity.faces);
+    return cavity;
 }
 
-/// The faces of a model's other parts that lie in a cavity.
-std::vector<FaceId> faces_inside(const Model& model, const Candidate& candidate, const Reading& cavity,
-                                 const RunContext& context)
+Cavity cavity_of(const Model& model, const Candidate& candidate, const Reading& reading,
+                 const RunContext& context)
 {
-    std::vector<FaceId> faces;
-    const OpenVolume& volume = cavity.sealed ? cavity.sealed->volume : cavity.volume;
-    const std::vector<FaceId> inside = bodies_inside(model, volume.model, context);
-    if (inside.empty()) return faces;
-    for (const std::vector<FaceId>& part : connected_parts(model, all_faces(model)))
-        if (std::ranges::find_first_of(part, inside) != part.end() &&
-            std::ranges::find_first_of(part, candidate.faces) == part.end())
-            faces.insert(faces.end(), part.begin(), part.end());
-    return faces;
+    const VolumeClass value = reading.classification.value;
+    const OpenVolume& skin = reading.sealed ? reading.sealed->volume : reading.volume;
+    return with_bodies(model, {word(value, candidate.mouths), candidate.faces, value, reading.enclosed},
+                       skin.model, context);
 }
 
 } // namespace
@@ -94,12 +100,14 @@ std::vector<Cavity> cavities(const Model& model, const RunContext& context)
     for (const Candidate& candidate : candidates(model, context)) {
         check_cancelled(context);
         if (const auto readings = only_reading(model, candidate, context)) {
-            result.push_back(cavity_of(candidate, readings->front()));
+            result.push_back(cavity_of(model, candidate, readings->front(), context));
         } else if (candidate.mouths == 0) {
             Model own = extract(model, candidate.faces);
             orient_consistently(own);
-            result.push_back({word(VolumeClass::closed, 0), candidate.faces, VolumeClass::closed,
-                              std::abs(volume_integral(own, all_faces(own)))});
+            const double volume = std::abs(volume_integral(own, all_faces(own)));
+            result.push_back(with_bodies(
+                model, {word(VolumeClass::closed, 0), candidate.faces, VolumeClass::closed, volume}, own,
+                context));
         }
     }
     return result;
@@ -119,11 +127,7 @@ std::vector<Cavity> largest_cavities(const Model& model, std::size_t most, const
             continue;
         const auto readings = only_reading(model, candidate, context);
         if (!readings) continue;
-        Cavity& cavity = result.emplace_back(cavity_of(candidate, readings->front()));
-        const std::vector<FaceId> inside = faces_inside(model, candidate, readings->front(), context);
-        cavity.has_bodies = !inside.empty();
-        cavity.faces.insert(cavity.faces.end(), inside.begin(), inside.end());
-        std::ranges::sort(cavity.faces);
+        result.push_back(cavity_of(model, candidate, readings->front(), context));
     }
     return result;
 }

@@ -118,7 +118,7 @@ Message why_no_roles(const Model& given, const std::vector<FaceId>& faces, const
             .remedy("cut it in two by open_volume{{ walls = {} }}:{} and open each piece with "
                     "piece:model():open_volume()",
                     walls, cut_in_words(model, round->centre, Vec3::UnitZ()));
-    if (single)
+    if (single && (closed || given.faces.size() == 1))
         return Message("topology.no_roles", "{} is the {}", entities_of(given, faces),
                        closed ? "whole skin, and a single face has no ends"
                               : "only face, and it is no tube between two ends")

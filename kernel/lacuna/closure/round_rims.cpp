@@ -9,6 +9,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/joined_faces.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/section.h>
@@ -236,36 +237,23 @@ void join_rounds(OpenVolume& volume, const RunContext& context)
 {
     const std::vector<EdgeId> fans = smooth_fans(volume, context);
     if (fans.empty()) return;
-    const Model before = volume.model;
-    geometry::UnionFind joined(before.faces.size());
-    std::vector<EdgeId> dropped;
+    const Model& model = volume.model;
+    geometry::UnionFind joined(model.faces.size());
     for (const EdgeId edge : fans) {
-        const std::span<const FaceUse> uses = before.uses_of_edge(edge);
-        if (!may_join(before[uses[0].face], before[uses[1].face])) continue;
-        joined.unite_least(uses[0].face.index(), uses[1].face.index());
-        dropped.push_back(edge);
+        const std::span<const FaceUse> uses = model.uses_of_edge(edge);
+        if (may_join(model[uses[0].face], model[uses[1].face]))
+            joined.unite_least(uses[0].face.index(), uses[1].face.index());
     }
-    if (dropped.empty()) return;
-    ModelBuilder builder(before);
-    for (const EdgeId edge : dropped) builder[edge].points.clear(); // not even a seam of the joined face
-    std::vector<FaceId> kept;
+    std::map<std::size_t, std::vector<FaceId>> by_first;
+    for (const FaceId face : all_faces(model)) by_first[joined.find(face.index())].push_back(face);
+    if (by_first.size() == model.faces.size()) return;
+    std::vector<std::vector<FaceId>> parts;
     std::vector<Role> role;
-    for (std::size_t f = 0; f < before.faces.size(); ++f) {
-        const std::size_t first = joined.find(f);
-        if (first == f) {
-            kept.push_back(FaceId(f));
-            role.push_back(volume.role[f]);
-            continue;
-        }
-        Face &into = builder.faces[first], &from = builder.faces[f];
-        into.triangles.insert(into.triangles.end(), from.triangles.begin(), from.triangles.end());
-        into.uv.clear();
-        into.surface = nullptr;
-        into.kind = "discrete";
-        from.triangles.clear();
+    for (auto& [first, own] : by_first) {
+        role.push_back(volume.role[first]);
+        parts.push_back(std::move(own));
     }
-    builder.build_loops(context);
-    volume.model = extract(std::move(builder).finish(), kept);
+    volume.model = join_faces(model, parts, context);
     volume.role = std::move(role);
 }
 

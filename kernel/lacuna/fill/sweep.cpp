@@ -307,32 +307,34 @@ std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& 
     const bool named = !volume.roles_found && !volume.no_roles;
     std::vector<int> apart(open.role.size(), 0);
     for (std::size_t f = 0; named && f < apart.size(); ++f) apart[f] = static_cast<int>(open.role[f]);
-    const auto joined = topology::join_continued_faces(open.model, apart, context);
-    if (!joined) return std::nullopt;
-    for (const std::vector<FaceId>& parts : joined->joined)
-        log_line(context,
-                 formatted("note: {} lie on one {} and are meshed as one face, because the cells "
-                           "cannot follow the edges between them",
-                           topology::entities_of(open.model, parts), open.model[parts.front()].kind));
+    const std::vector<std::vector<FaceId>> faces = topology::continued_faces(open.model, apart, context);
+    if (faces.size() == open.model.faces.size()) return std::nullopt;
+    for (const std::vector<FaceId>& parts : faces)
+        if (parts.size() > 1)
+            log_line(context,
+                     formatted("note: {} lie on one {} and are meshed as one face, because the cells "
+                               "cannot follow the edges between them",
+                               topology::entities_of(open.model, parts), open.model[parts.front()].kind));
+    const topology::Model joined = topology::join_faces(open.model, faces, context);
     RoleRequest request;
     request.name = volume.name;
     request.material = volume.material;
     request.glued = volume.glued;
     if (named) {
         request.roles.emplace();
-        for (std::size_t f = 0; f < joined->parent.size(); ++f) {
-            const topology::Role role = open.role[joined->parent[f].index()];
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            const topology::Role role = open.role[faces[f].front().index()];
             (role == topology::Role::source   ? request.roles->source
              : role == topology::Role::target ? request.roles->target
                                               : request.roles->walls)
                 .emplace_back(f);
         }
     } else {
-        request.faces = topology::all_faces(joined->model);
+        request.faces = topology::all_faces(joined);
     }
     RunContext quiet = context; // the notes on these faces were logged
     quiet.log = nullptr;
-    Volume result = fill::open(joined->model, request, quiet);
+    Volume result = fill::open(joined, request, quiet);
     result.decks = volume.decks;
     result.scale = volume.scale;
     result.unit = volume.unit;

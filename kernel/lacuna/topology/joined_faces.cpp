@@ -108,11 +108,12 @@ bool meet_smoothly(const Model& model, const FaceUse& a, const FaceUse& b, EdgeI
     return area_beside(a.face).dot(area_beside(b.face)) > 0;
 }
 
-/// Whether a face can be joined with others. The nodes of a given mesh would move.
+bool has_surface(const Face& face) { return face.surface && face.uv.size() == face.triangles.size(); }
+
+/// Whether a face can be joined with others that continue it. The nodes of a given mesh would move.
 bool may_join(const Face& face)
 {
-    return face.origin == Origin::given && !face.keeps_nodes && face.given_quads.empty() && face.surface &&
-           face.uv.size() == face.triangles.size();
+    return face.origin == Origin::given && !face.keeps_nodes && face.given_quads.empty() && has_surface(face);
 }
 
 bool are_alike(const Face& a, const Face& b)
@@ -173,61 +174,67 @@ std::vector<FaceId> continued(const Model& model, FaceId root, const std::functi
     return parts;
 }
 
-/// One face of all parts.
+/// One face of all parts. Each part keeps its exact surface if all have one; the facets of a plane are exact.
 Face joined_face(const Model& model, const std::vector<FaceId>& parts)
 {
     Face face = model[parts.front()];
     if (parts.size() == 1) return face;
-    const auto surface = std::make_shared<JoinedSurface>(model, parts);
+    const bool exact = std::ranges::all_of(parts, [&](FaceId part) { return has_surface(model[part]); });
+    const bool alike = std::ranges::all_of(parts, [&](FaceId part) { return model[part].kind == face.kind; });
+    const auto surface = exact && !(alike && face.kind == "plane")
+                             ? std::make_shared<JoinedSurface>(model, parts)
+                             : nullptr;
+    if (!alike) face.kind = exact ? "surface" : "discrete";
+    face.surface = surface;
     face.triangles.clear();
     face.uv.clear();
     for (std::size_t p = 0; p < parts.size(); ++p) {
         const Face& part = model[parts[p]];
         if (p > 0) face.repeated_tags.push_back(part.tag);
         face.triangles.insert(face.triangles.end(), part.triangles.begin(), part.triangles.end());
+        if (!surface) continue;
         for (const auto& [a, b, c] : part.uv)
             face.uv.push_back({surface->from_part(p, a), surface->from_part(p, b), surface->from_part(p, c)});
-    }
-    face.surface = surface;
-    if (face.kind == "plane") { // its facets are exact
-        face.surface = nullptr;
-        face.uv.clear();
     }
     return face;
 }
 
 } // namespace
 
-std::optional<JoinedFaces> join_continued_faces(const Model& model, const std::vector<int>& apart,
-                                                const RunContext& context)
+Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& parts, const RunContext& context)
 {
-    std::vector<FaceId> roots = all_faces(model);
-    std::vector<double> area;
-    for (const FaceId face : roots) area.push_back(face_area(model, face));
-    std::ranges::stable_sort(roots, std::greater{}, [&](FaceId face) { return area[face.index()]; });
-    const std::size_t none = model.faces.size();
-    std::vector<std::size_t> group(model.faces.size(), none);
+    std::vector<std::size_t> group(model.faces.size());
     std::vector<Face> faces;
-    JoinedFaces result;
-    for (const FaceId root : roots) {
-        if (group[root.index()] != none) continue;
-        check_cancelled(context);
-        std::vector<FaceId> parts = continued(model, root, [&](FaceId face) {
-            return group[face.index()] == none && apart[face.index()] == apart[root.index()];
-        });
-        for (const FaceId part : parts) group[part.index()] = faces.size();
-        result.parent.push_back(root);
-        faces.push_back(joined_face(model, parts));
-        if (parts.size() > 1) result.joined.push_back(std::move(parts));
+    for (const std::vector<FaceId>& own : parts) {
+        for (const FaceId part : own) group[part.index()] = faces.size();
+        faces.push_back(joined_face(model, own));
     }
-    if (result.joined.empty()) return std::nullopt;
     ModelBuilder builder(model);
     builder.faces = std::move(faces);
     builder.edges = remaining_edges(model, group);
     builder.build_loops(context);
     const Model joined = std::move(builder).finish();
-    result.model = extract(joined, all_faces(joined));
-    return result;
+    return extract(joined, all_faces(joined));
+}
+
+std::vector<std::vector<FaceId>> continued_faces(const Model& model, const std::vector<int>& apart,
+                                                 const RunContext& context)
+{
+    std::vector<FaceId> roots = all_faces(model);
+    std::vector<double> area;
+    for (const FaceId face : roots) area.push_back(face_area(model, face));
+    std::ranges::stable_sort(roots, std::greater{}, [&](FaceId face) { return area[face.index()]; });
+    std::vector<char> taken(model.faces.size(), 0);
+    std::vector<std::vector<FaceId>> parts;
+    for (const FaceId root : roots) {
+        if (taken[root.index()] != 0) continue;
+        check_cancelled(context);
+        parts.push_back(continued(model, root, [&](FaceId face) {
+            return taken[face.index()] == 0 && apart[face.index()] == apart[root.index()];
+        }));
+        for (const FaceId part : parts.back()) taken[part.index()] = 1;
+    }
+    return parts;
 }
 
 } // namespace lacuna::topology

@@ -23,13 +23,13 @@ struct Cavity {
 /// The cavities of the solids of a model, in the order of their first faces. Candidates are the hollows of
 /// topology::hollows(). Hollows that share whole rims are also merged into one further candidate, which
 /// comes before its parts. A candidate is a cavity if it has no mouth, or if find_readings() finds exactly
-/// one void.
+/// one void. The faces include those of other bodies of the model that lie in the cavity, such as boards in
+/// a tray.
 /// @throw Cancelled
 /// @note  One call of find_readings() per candidate.
 std::vector<Cavity> cavities(const topology::Model& model, const RunContext& context = {});
 
-/// The largest cavities, largest first, none a part of another. Their faces include those of other bodies of
-/// the model that lie in them, such as boards in a tray.
+/// The largest cavities, largest first, none a part of another.
 /// @throw Cancelled
 /// @note  One call of find_readings() per candidate, until `most` cavities are found.
 std::vector<Cavity> largest_cavities(const topology::Model& model, std::size_t most,
