@@ -55,6 +55,7 @@ public:
                 again = true;
             }
         }
+        add_smooth_mouths();
         return std::move(result_);
     }
 
@@ -62,6 +63,7 @@ private:
     void find_lines()
     {
         const auto [turns, faces_void] = skin_turns(volume_, context_);
+        turns_ = turns;
         const std::set<EdgeId> at_ends = edges_of(model_, ends_);
         std::map<VertexId, std::vector<EdgeId>> at;
         geometry::UnionFind sets(model_.edges.size());
@@ -123,6 +125,52 @@ private:
                 result_.mouths.push_back(std::move(mouth));
             }
         }
+    }
+
+    /// A smooth line at which a tube leaves a junction of three or more tubes.
+    struct SmoothLine {
+        EdgeId edge;
+        FaceId tube, junction;
+        bool may_be_mouth = false; ///< tubes with ends of the sweep belong to the main body
+        double length = 0;
+    };
+
+    [[nodiscard]] std::vector<SmoothLine> smooth_lines() const
+    {
+        const std::set<EdgeId> at_ends = edges_of(model_, ends_);
+        std::vector<SmoothLine> lines;
+        for (const FaceId tube : volume_.faces(Role::wall)) {
+            const std::vector<Rim> both = rims(model_, {tube});
+            if (both.size() != 2) continue;
+            for (const Rim& rim : both) {
+                const EdgeId edge = rim.uses.front().edge;
+                const std::span<const FaceUse> uses = model_.uses_of_edge(edge);
+                if (rim.uses.size() != 1 || uses.size() != 2) continue;
+                const FaceId junction = uses[uses[0].face == tube ? 1 : 0].face;
+                if (volume_.role[junction.index()] != Role::wall || rims(model_, {junction}).size() < 3 ||
+                    std::abs(turns_[edge.index()]) >= kCreaseAngle / 2)
+                    continue;
+                const bool ends = std::ranges::any_of(
+                    both, [&](const Rim& own) { return at_ends.contains(own.uses.front().edge); });
+                lines.push_back({edge, tube, junction, !ends, edge_length(model_, edge)});
+            }
+        }
+        std::ranges::sort(lines, {}, &SmoothLine::length);
+        return lines;
+    }
+
+    /// Add the smooth lines that are mouths, the shortest first.
+    void add_smooth_mouths()
+    {
+        const std::vector<SmoothLine> lines = smooth_lines();
+        for (const SmoothLine& line : lines) {
+            result_.mouths.push_back({{line.edge}});
+            if (line.may_be_mouth) find_regions();
+            if (line.may_be_mouth && set_sides(result_.mouths.back())) continue;
+            result_.mouths.pop_back();
+            result_.passed.emplace_back(line.junction, line.tube);
+        }
+        if (!lines.empty()) find_regions();
     }
 
     /// The angle by which the skin turns from one rim of a fillet to the other, on average; positive if the
@@ -212,7 +260,8 @@ private:
     const OpenVolume& volume_;
     const Model& model_;
     const RunContext& context_;
-    std::vector<FaceId> ends_; ///< faces of source and target
+    std::vector<FaceId> ends_;  ///< faces of source and target
+    std::vector<double> turns_; ///< `concave_turns()` of the edges
     Branching result_;
 };
 

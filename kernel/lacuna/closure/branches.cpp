@@ -17,6 +17,7 @@
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/joined_faces.h>
 #include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/side_points.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -510,6 +511,25 @@ private:
     Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero();
 };
 
+/// Make one face of each smooth junction and the tubes of the main body, whose layers need not follow the
+/// lines between them.
+OpenVolume with_junctions_joined(const OpenVolume& volume, const Branching& found, const RunContext& context)
+{
+    geometry::UnionFind joined(volume.model.faces.size());
+    for (const auto& [junction, tube] : found.passed) joined.unite_least(junction.index(), tube.index());
+    std::map<std::size_t, std::vector<FaceId>> by_first;
+    for (const FaceId face : all_faces(volume.model)) by_first[joined.find(face.index())].push_back(face);
+    OpenVolume result = volume;
+    std::vector<std::vector<FaceId>> parts;
+    result.role.clear();
+    for (auto& [first, own] : by_first) {
+        result.role.push_back(volume.role[first]);
+        parts.push_back(std::move(own));
+    }
+    result.model = join_faces(volume.model, parts, context);
+    return result;
+}
+
 } // namespace
 
 bool has_branches(const OpenVolume& volume, const RunContext& context)
@@ -521,6 +541,7 @@ std::vector<StepPiece> cut_branches(const OpenVolume& volume, const RunContext& 
 {
     Branching found = find_mouths(volume, context);
     if (found.mouths.empty()) return {{.volume = volume}};
+    if (!found.passed.empty()) return cut_branches(with_junctions_joined(volume, found, context), context);
     std::vector<StepPiece> result;
     for (const StepPiece& piece : BranchCutter(volume, std::move(found), context).run()) {
         for (StepPiece& own : cut_branches(piece.volume, context)) result.push_back(std::move(own));

@@ -11,6 +11,7 @@
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
+#include <lacuna/healing/detail/divide_arms.h>
 #include <lacuna/healing/detail/facet_normals.h>
 #include <lacuna/healing/detail/facet_sides.h>
 #include <lacuna/healing/detail/smooth_noise.h>
@@ -576,6 +577,7 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     if (noisy)
         model.notes.push_back(note_on(options.keep_noise ? NoiseSmoothed{} : smooth_noise(model, context)));
     model.build_loops(context);
+    if (!options.whole_labels) divide_arms(model, context);
     return std::move(model).finish();
 }
 

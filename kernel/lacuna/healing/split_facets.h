@@ -9,6 +9,7 @@
 //   checks and repairs of the facets  soup_facets.cpp, weld.cpp, t_junctions.cpp
 //   normals, by which faces end       facet_normals.cpp
 //   points of noisy scans             smooth_noise.cpp
+//   junctions of tubes                divide_arms.cpp
 //   growing one face from a point     grow_face.cpp
 //   steps of stitch()                 stitch.cpp, stitch_edges.cpp; changes to the model: loose_model.cpp
 //   distance to an edge               edge_track.cpp

@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/side_points.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -273,24 +274,30 @@ private:
                 corner = moved(corner);
             }
         }
-        if (erase_facets(face, [&](std::size_t t) { return repeats(face.triangles[t]); })) drop_fins(face);
+        if (erase_facets(face, [&](std::size_t t) { return repeats(face.triangles[t]); })) drop_bubbles(face);
         for (Quad& quad : face.given_quads) {
             for (Index& n : quad) n = moved(n);
         }
     }
 
-    /// Remove pairs of facets with the same corners: a facet folds onto its neighbour if the points of two of
-    /// its sides became one.
-    static void drop_fins(Face& face)
+    /// Remove bubbles: facets between two sides that became one, because their points became one. A bubble
+    /// is connected to other facets over sides with more than two facets only.
+    static void drop_bubbles(Face& face)
     {
-        std::map<Triangle, int> count;
-        const auto corners = [&](std::size_t t) {
-            Triangle sorted = face.triangles[t];
-            std::ranges::sort(sorted);
-            return sorted;
-        };
-        for (std::size_t t = 0; t < face.triangles.size(); ++t) ++count[corners(t)];
-        erase_facets(face, [&](std::size_t t) { return count.at(corners(t)) == 2; });
+        std::map<std::uint64_t, std::vector<std::size_t>> on;
+        for (std::size_t t = 0; t < face.triangles.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k)
+                on[edge_key(face.triangles[t][k], face.triangles[t][(k + 1) % 3])].push_back(t);
+        const auto is_pinched = [](const auto& side) { return side.second.size() > 2; };
+        if (std::ranges::none_of(on, is_pinched)) return;
+        geometry::UnionFind parts(face.triangles.size());
+        for (const auto& side : on)
+            if (side.second.size() == 2) parts.unite_least(side.second[0], side.second[1]);
+        std::set<std::size_t> with_border;
+        for (const auto& side : on)
+            if (side.second.size() == 1) with_border.insert(parts.find(side.second.front()));
+        if (with_border.empty()) return; // a closed face
+        erase_facets(face, [&](std::size_t t) { return !with_border.contains(parts.find(t)); });
     }
 
     const Model& given_;

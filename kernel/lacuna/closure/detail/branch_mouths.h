@@ -5,12 +5,13 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace lacuna::closure {
 
-/// A closed line between a branch and its main body: of concave edges, or the rim of a fillet on the main
-/// body. The fillet is then part of the branch.
+/// A closed line between a branch and its main body: of concave edges, the rim of a fillet on the main body,
+/// or a line at which a tube leaves a smooth junction. A fillet is part of the branch.
 struct Mouth {
     std::vector<EdgeId> edges;
     std::vector<EdgeId> beyond{};     ///< the other rim of the fillet; empty without one
@@ -25,6 +26,8 @@ struct Branching {
     std::vector<std::vector<FaceId>> faces; ///< by region
     std::vector<std::vector<Vec3>> ends;    ///< centres of the ends, by region
     std::vector<Mouth> mouths;
+    /// A smooth junction and a tube of the main body: no mouth is between them.
+    std::vector<std::pair<FaceId, FaceId>> passed;
 };
 
 /// The mouths of all branches of a volume.

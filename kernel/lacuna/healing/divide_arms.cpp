@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/healing/detail/divide_arms.h>
+
+#include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/side_points.h>
+#include <lacuna/topology/shared/use_places.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace lacuna::healing {
+
+using namespace topology;
+
+namespace {
+
+/// Divides one face.
+class Junction {
+public:
+    Junction(ModelBuilder& model, FaceId face, const RunContext& context)
+        : model_(model), face_(face), context_(context)
+    {
+        for (const Loop& loop : model[face].loops) rims_.push_back(loop_points(model, loop.uses));
+    }
+
+    [[nodiscard]] bool is_one() const
+    {
+        const Face& face = model_[face_];
+        return rims_.size() > 2 && face.given_quads.empty() && !face.keeps_nodes && !face.surface &&
+               std::ranges::all_of(rims_, [&](const std::vector<Index>& rim) { return is_tube_at(rim); });
+    }
+
+    /// @return whether a tube became a face of its own
+    bool divide()
+    {
+        const geometry::HarmonicValues solved = solve();
+        for (std::size_t p = 0; p < solved.points.size(); ++p)
+            level_[solved.points[p]] = solved.values.row(static_cast<Eigen::Index>(p));
+        std::vector<std::optional<double>> ends;
+        for (std::size_t k = 0; k < rims_.size(); ++k) ends.push_back(end_of_tube(k));
+        bool any = false;
+        for (std::size_t k = 0; k < ends.size(); ++k) {
+            check_cancelled(context_);
+            any = (ends[k] && cut_off(k, beside_others(k, *ends[k]))) || any;
+        }
+        return any;
+    }
+
+private:
+    /// Whether the facets at a rim run along its normal.
+    [[nodiscard]] bool is_tube_at(const std::vector<Index>& rim) const
+    {
+        const std::set<Index> on_rim(rim.begin(), rim.end());
+        const Vec3 normal = geometry::newell_vector(places_at(model_, rim)).stableNormalized();
+        double area = 0, along = 0;
+        for (const Triangle& t : model_[face_].triangles) {
+            if (std::ranges::none_of(t, [&](Index p) { return on_rim.contains(p); })) continue;
+            const Vec3 own = facet_area_vector(model_, t);
+            area += own.norm();
+            along += std::abs(own.dot(normal));
+        }
+        return along < std::sin(kCreaseAngle * kDegree) * area;
+    }
+
+    /// For each rim a function that is 0 there and 1 on the other rims.
+    [[nodiscard]] geometry::HarmonicValues solve() const
+    {
+        geometry::HarmonicProblem problem;
+        problem.points = model_.points;
+        problem.triangles = model_[face_].triangles;
+        const auto count = static_cast<Eigen::Index>(rims_.size());
+        std::map<Index, Eigen::Index> rim_of;
+        for (Eigen::Index k = 0; k < count; ++k)
+            for (const Index p : rims_[static_cast<std::size_t>(k)]) rim_of.emplace(p, k);
+        problem.fixed_values = Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(rim_of.size()), count);
+        for (const auto& [p, k] : rim_of) {
+            problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size()), k) = 0;
+            problem.fixed.push_back(p);
+        }
+        return geometry::solve_on_facets(problem, context_);
+    }
+
+    [[nodiscard]] double level(Index point, std::size_t rim) const
+    {
+        return level_.at(point)[static_cast<Eigen::Index>(rim)];
+    }
+
+    /// The level at which the tube of a rim ends. Empty if no inner point is below it.
+    [[nodiscard]] std::optional<double> end_of_tube(std::size_t rim) const
+    {
+        std::map<Index, double> curvature; // at inner points [radian]
+        std::set<Index> on_rim;
+        for (const std::vector<Index>& own : rims_) on_rim.insert(own.begin(), own.end());
+        for (const Triangle& t : model_[face_].triangles)
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (on_rim.contains(t[k])) continue;
+                const Vec3& at = model_.at(t[k]);
+                curvature.try_emplace(t[k], 2 * std::numbers::pi).first->second -= geometry::angle_between(
+                    model_.at(t[(k + 1) % 3]) - at, model_.at(t[(k + 2) % 3]) - at);
+            }
+        std::vector<std::pair<double, double>> order; // level, curvature
+        for (const auto& [p, own] : curvature) order.emplace_back(level(p, rim), own);
+        std::ranges::sort(order);
+        std::optional<double> end;
+        double total = 0;
+        for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+            total += order[i].second;
+            // Halfway to the next point, so that no point is at the level itself.
+            if (total > -kCreaseAngle * kDegree && order[i + 1].first > order[i].first)
+                end = (order[i].first + order[i + 1].first) / 2;
+        }
+        return end;
+    }
+
+    /// The level at which a tube ends, or one below it at which it does not meet the tubes that were cut off.
+    [[nodiscard]] double beside_others(std::size_t rim, double end) const
+    {
+        double most = end, below = 0;
+        for (const Index p : of_others_) most = std::min(most, level(p, rim));
+        if (most == end) return end;
+        for (const Triangle& t : model_[face_].triangles)
+            for (const Index p : t)
+                if (level(p, rim) < most) below = std::max(below, level(p, rim));
+        return (below + most) / 2;
+    }
+
+    /// Split the face along a level of a rim; the part below it becomes a face of its own. False if the level
+    /// is not one line.
+    bool cut_off(std::size_t rim, double end)
+    {
+        Face junction = model_[face_];
+        SidePoints sides;
+        std::set<std::pair<Index, Index>> done;
+        std::set<Index> made;
+        const std::size_t points = model_.points.size();
+        for (const Triangle& t : junction.triangles)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [a, b] = std::minmax(t[k], t[(k + 1) % 3]);
+                const double from = level(a, rim), to = level(b, rim);
+                if ((from < end) == (to < end) || !done.insert({a, b}).second) continue;
+                const double f = (end - from) / (to - from);
+                const auto p = static_cast<Index>(model_.points.size());
+                model_.points.emplace_back((1 - f) * model_.at(a) + f * model_.at(b));
+                level_[p] = (1 - f) * level_.at(a) + f * level_.at(b);
+                level_[p][static_cast<Eigen::Index>(rim)] = end;
+                sides.add(a, b, {p});
+                made.insert(p);
+            }
+        cut_at_sides(model_.points, junction, sides);
+        Face tube = junction;
+        const auto is_below = [&](const Triangle& t) {
+            return std::ranges::any_of(t, [&](Index p) { return level(p, rim) < end; });
+        };
+        erase_facets(junction, [&](std::size_t t) { return is_below(junction.triangles[t]); });
+        erase_facets(tube, [&](std::size_t t) { return !is_below(tube.triangles[t]); });
+        std::vector<Index> line = line_through(made, tube);
+        if (line.size() != made.size() + 1) {
+            model_.points.resize(points);
+            return false;
+        }
+        of_others_.insert(of_others_.end(), line.begin(), line.end());
+        tube.tag = static_cast<int>(model_.faces.size()) + 1;
+        model_[face_] = std::move(junction);
+        model_.faces.push_back(std::move(tube));
+        Edge edge;
+        edge.tag = static_cast<int>(model_.edges.size()) + 1;
+        edge.from = edge.to = VertexId(model_.vertices.size());
+        model_.vertices.push_back(
+            {.point = line.front(), .tag = static_cast<int>(model_.vertices.size()) + 1});
+        edge.points = std::move(line);
+        model_.edges.push_back(std::move(edge));
+        return true;
+    }
+
+    /// The closed line of a face's sides through the first of some points.
+    static std::vector<Index> line_through(const std::set<Index>& points, const Face& face)
+    {
+        std::map<Index, Index> next;
+        for (const Triangle& t : face.triangles)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (points.contains(t[k]) && points.contains(t[(k + 1) % 3])) next[t[k]] = t[(k + 1) % 3];
+        std::vector<Index> line;
+        for (auto at = next.begin(); at != next.end(); at = next.find(line.back())) {
+            if (line.size() > points.size()) break;
+            if (line.empty()) line.push_back(at->first);
+            line.push_back(at->second);
+            if (line.back() == line.front()) break;
+        }
+        return line;
+    }
+
+    ModelBuilder& model_;
+    FaceId face_;
+    const RunContext& context_;
+    std::vector<std::vector<Index>> rims_;
+    std::map<Index, Eigen::VectorXd> level_; ///< by point of the face: a level for each rim
+    std::vector<Index> of_others_;           ///< points at the ends of the tubes that were cut off
+};
+
+} // namespace
+
+void divide_arms(ModelBuilder& model, const RunContext& context)
+{
+    bool any = false;
+    const std::size_t count = model.faces.size();
+    for (std::size_t f = 0; f < count; ++f) {
+        Junction junction(model, FaceId(f), context);
+        if (!junction.is_one()) continue;
+        any = junction.divide() || any;
+    }
+    if (any) model.build_loops(context);
+}
+
+} // namespace lacuna::healing
