@@ -15,8 +15,11 @@
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/spread.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/joined_faces.h>
 #include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/side_points.h>
@@ -149,6 +152,41 @@ private:
         for (const FaceId face : found_.faces[mouth.branch]) far += face_centroid(volume_.model, face);
         far /= static_cast<double>(found_.faces[mouth.branch].size());
         return (far - geometry::mean_point(rim)).dot(normal) < 0 ? Vec3(-normal) : normal;
+    }
+
+    /// Direction of a branch near its mouth, away from the main body: across the normals of its facets there.
+    [[nodiscard]] Vec3 way_of_branch(const Mouth& mouth) const
+    {
+        const Vec3 outward = way_out(mouth);
+        const std::vector<Vec3> rim = rim_places(mouth);
+        const Vec3 centre = geometry::mean_point(rim);
+        double wide = 0;
+        for (const Vec3& p : rim) wide = std::max(wide, (p - centre).norm());
+        std::vector<Vec3> normals;
+        std::vector<double> areas;
+        for (const FaceId face : found_.faces[mouth.branch]) {
+            if (plane_of(volume_.model, face)) continue; // an end
+            for (const Triangle& t : volume_.model[face].triangles) {
+                const Vec3 area = facet_area_vector(volume_.model, t);
+                if (!(area.norm() > 0) || (volume_.model.at(t[0]) - centre).norm() > 2 * wide) continue;
+                normals.push_back(area.normalized());
+                areas.push_back(area.norm());
+            }
+        }
+        if (normals.empty()) return outward;
+        const Vec3 way = geometry::spread_about(Vec3::Zero(), normals, areas).axis.col(0);
+        return way.dot(outward) < 0 ? Vec3(-way) : way;
+    }
+
+    /// The radius of a branch, from its axis through the centre of the mouth.
+    [[nodiscard]] double radius_of(const Mouth& mouth, const Vec3& way) const
+    {
+        const std::vector<Vec3> rim = rim_places(mouth);
+        const Vec3 centre = geometry::mean_point(rim);
+        const Vec3 across = (axis_ - axis_.dot(way) * way).stableNormalized();
+        double radius = 0;
+        for (const Vec3& p : rim) radius = std::max(radius, std::abs((p - centre).dot(across)));
+        return radius;
     }
 
     /// Set the main body's axis: the direction from end to end, without its component along the branch.
@@ -371,8 +409,18 @@ private:
     {
         check_cancelled(context_);
         Vec3 centre = Vec3::Zero();
-        for (const Mouth* mouth : mouths)
-            centre += geometry::mean_point(rim_places(*mouth)) / static_cast<double>(mouths.size());
+        for (const Mouth* mouth : mouths) {
+            // Where the branch's axis is as deep below the mouth as the branch is wide, the faces bisect the
+            // angles between the branch and the main body, but a plane there meets the mouth near its tip.
+            // Halfway, cells are best: 24 laterals of 45 and 60 degrees, mean of the least scaled Jacobians
+            // 0.32, at the mouth's centre 0.28, at that place 0.27.
+            const Vec3 way = way_of_branch(*mouth), outward = way_out(*mouth);
+            const Vec3 middle = geometry::mean_point(rim_places(*mouth));
+            const double steep = way.dot(outward);
+            const Vec3 at = steep > kAlongAxis ? Vec3(middle - radius_of(*mouth, way) / (2 * steep) * way)
+                                               : middle;
+            centre += at / static_cast<double>(mouths.size());
+        }
         const geometry::Plane plane = geometry::plane_across(centre, axis_);
         PartedVolume parted{volume_};
         OpenVolume& work = parted.volume;
@@ -472,8 +520,8 @@ private:
         return {use_from(model, halves[0].front()), use_to(model, halves[0].back())};
     }
 
-    /// Add the dip: a parabola across the mouth into the main body. Its lowest point lies below the mouth, as
-    /// deep as the mouth extends from the plane along the axis, but at most halfway to the opposite wall.
+    /// Add the dip: a parabola across the mouth into the main body. Its lowest point lies as deep below the
+    /// mouth as the branch is wide, but at most halfway to the opposite wall.
     EdgeId add_dip(Model& model, const Mouth& mouth, const geometry::Plane& plane,
                    std::pair<VertexId, VertexId> ends)
     {
@@ -491,7 +539,7 @@ private:
         const std::vector<Triangle> facets = facets_of(volume_.model, found_.faces[mouth.host]);
         const Vec3 start = (a + b) / 2 + (std::min(rim, top) - rim) * outward;
         const double down = geometry::FacetTree(volume_.model.points, facets).first_along(start, -outward).t;
-        double lowest = top - wide;
+        double lowest = top - radius_of(mouth, way_of_branch(mouth));
         if (std::isfinite(down))
             lowest = std::max(lowest, top - kDeepest * (top - start.dot(outward) + down));
         const double deep = std::max(0.0, rim - lowest);

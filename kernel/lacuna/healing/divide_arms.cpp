@@ -32,11 +32,16 @@ public:
         for (const Loop& loop : model[face].loops) rims_.push_back(loop_points(model, loop.uses));
     }
 
+    /// A wall that is straight along its rims has no curvature that tubes could leave to their junction.
     [[nodiscard]] bool is_one() const
     {
         const Face& face = model_[face_];
-        return rims_.size() > 2 && face.given_quads.empty() && !face.keeps_nodes && !face.surface &&
-               std::ranges::all_of(rims_, [&](const std::vector<Index>& rim) { return is_tube_at(rim); });
+        if (rims_.size() < 3 || !face.given_quads.empty() || face.keeps_nodes || face.surface) return false;
+        if (!std::ranges::all_of(rims_, [&](const std::vector<Index>& rim) { return is_tube_at(rim); }))
+            return false;
+        double total = 0;
+        for (const auto& [point, curvature] : curvatures()) total += curvature;
+        return total < -std::numbers::pi * static_cast<double>(rims_.size() - 2);
     }
 
     /// @return whether a tube became a face of its own
@@ -45,8 +50,9 @@ public:
         const geometry::HarmonicValues solved = solve();
         for (std::size_t p = 0; p < solved.points.size(); ++p)
             level_[solved.points[p]] = solved.values.row(static_cast<Eigen::Index>(p));
+        const std::map<Index, double> curvature = curvatures();
         std::vector<std::optional<double>> ends;
-        for (std::size_t k = 0; k < rims_.size(); ++k) ends.push_back(end_of_tube(k));
+        for (std::size_t k = 0; k < rims_.size(); ++k) ends.push_back(end_of_tube(curvature, k));
         bool any = false;
         for (std::size_t k = 0; k < ends.size(); ++k) {
             check_cancelled(context_);
@@ -94,10 +100,11 @@ private:
         return level_.at(point)[static_cast<Eigen::Index>(rim)];
     }
 
-    /// The level at which the tube of a rim ends. Empty if no inner point is below it.
-    [[nodiscard]] std::optional<double> end_of_tube(std::size_t rim) const
+    /// Gaussian curvature at the inner points of the face: the full angle less the angles of the facets there
+    /// [radian].
+    [[nodiscard]] std::map<Index, double> curvatures() const
     {
-        std::map<Index, double> curvature; // at inner points [radian]
+        std::map<Index, double> curvature;
         std::set<Index> on_rim;
         for (const std::vector<Index>& own : rims_) on_rim.insert(own.begin(), own.end());
         for (const Triangle& t : model_[face_].triangles)
@@ -107,6 +114,13 @@ private:
                 curvature.try_emplace(t[k], 2 * std::numbers::pi).first->second -= geometry::angle_between(
                     model_.at(t[(k + 1) % 3]) - at, model_.at(t[(k + 2) % 3]) - at);
             }
+        return curvature;
+    }
+
+    /// The level at which the tube of a rim ends. Empty if no inner point is below it.
+    [[nodiscard]] std::optional<double> end_of_tube(const std::map<Index, double>& curvature,
+                                                    std::size_t rim) const
+    {
         std::vector<std::pair<double, double>> order; // level, curvature
         for (const auto& [p, own] : curvature) order.emplace_back(level(p, rim), own);
         std::ranges::sort(order);
