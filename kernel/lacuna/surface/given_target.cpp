@@ -3,6 +3,7 @@
 
 #include <lacuna/core/message.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/point_tree.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 
 #include <algorithm>
@@ -173,6 +174,26 @@ GivenTarget given_target(const OpenVolume& volume, std::span<const LinkingSurfac
     for (const Index point : image) result.nodes.push_back(model.at(point));
     for (const Index t : *twin) result.face.push_back(target->face[index(t)]);
     return result;
+}
+
+std::vector<Vec3> given_part(const Model& model, FaceId face, const std::vector<Quad>& quads,
+                             std::span<const std::optional<Vec3>> places)
+{
+    const std::vector<Quad>& given = model[face].given_quads;
+    if (!model[face].keeps_nodes || given.size() != quads.size()) return {};
+    std::vector<Index> rim;
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(given)) rim.push_back(side.from);
+    const geometry::FacetTree tree = geometry::point_tree(places_at(model, rim));
+    std::vector<Index> image(places.size(), -1);
+    std::vector<Segment> sides;
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(quads)) {
+        const auto hit = tree.closest(*places[index(side.from)], model.tolerance * model.tolerance);
+        if (hit.triangle < 0) return {};
+        image[index(side.from)] = rim[index(hit.triangle)];
+        sides.push_back({side.from, side.to});
+    }
+    if (!paired_quads(quads, given, image, sides)) return {};
+    return places_at(model, image);
 }
 
 std::vector<LinkingSurface> align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> columns,

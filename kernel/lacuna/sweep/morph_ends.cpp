@@ -3,9 +3,11 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/surface/shared/given_target.h>
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/shared_quads.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +20,20 @@ using namespace topology;
 
 namespace {
 
+/// Points of an image: the nodes of the target edge if it keeps as many, else points at shares of its length.
+std::vector<Vec3> image_points(const Model& model, const surface::EdgeImage& image, std::vector<double> at)
+{
+    const Edge& target = model[image.target];
+    const bool along = image.from == 0 && image.to == 1, against = image.from == 1 && image.to == 0;
+    if (target.keeps_nodes && target.points.size() == at.size() && (along || against))
+        return use_places(model, {image.target, against});
+    for (double& f : at) {
+        f = image.from + f * (image.to - image.from);
+        if (f < 0 || f > 1) f -= std::floor(f); // the position lies past the start of a closed edge
+    }
+    return surface::edge_points(model, image.target, at);
+}
+
 /// Target positions of the source nodes on the rim and on imprinted edges; empty for other nodes. They are
 /// known before any face is filled.
 std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source, const RimColumns& columns,
@@ -28,12 +44,8 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
         const auto found = source.on_edge.find(edge);
         if (found == source.on_edge.end()) continue; // given quads do not follow the edge
         const std::vector<Index>& nodes = found->second;
-        std::vector<double> at = seeds.fractions(edge);
-        for (double& f : at) {
-            f = image.from + f * (image.to - image.from);
-            if (f < 0 || f > 1) f -= std::floor(f); // the position lies past the start of a closed edge
-        }
-        const std::vector<Vec3> points = surface::edge_points(imprint.volume->model, image.target, at);
+        const std::vector<double> at = seeds.fractions(edge);
+        const std::vector<Vec3> points = image_points(imprint.volume->model, image, at);
         for (std::size_t i = 0; i < nodes.size(); ++i) places[index(nodes[i])] = points[i];
     }
     const std::span<const Vec3> high = columns.row(columns.layers);
@@ -44,8 +56,9 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
 /// The quads on one target face as a separate mesh.
 struct Part {
     mesh::QuadMesh mesh;
-    std::vector<Index> node; ///< for each node, its number in the whole mesh
-    RimColumns columns;      ///< columns of one layer over the rim of the part
+    std::vector<Index> node;                 ///< for each node, its number in the whole mesh
+    std::vector<std::optional<Vec3>> places; ///< for each node, its position on the target if it is known
+    RimColumns columns;                      ///< columns of one layer over the rim of the part
 };
 
 Part part_of(const mesh::QuadMesh& whole, const std::vector<Quad>& quads,
@@ -56,14 +69,17 @@ Part part_of(const mesh::QuadMesh& whole, const std::vector<Quad>& quads,
     part.mesh.quads = std::move(alone.quads);
     part.node = std::move(alone.nodes);
     part.columns.layers = 1;
-    for (const Index node : part.node) part.mesh.nodes.push_back(whole.nodes[index(node)]);
+    for (const Index node : part.node) {
+        part.mesh.nodes.push_back(whole.nodes[index(node)]);
+        part.places.push_back(places[index(node)]);
+    }
     std::set<Index> rim;
     for (const mesh::BoundarySide& side : mesh::boundary_sides(part.mesh.quads))
         rim.insert({side.from, side.to});
     part.columns.rim.assign(rim.begin(), rim.end());
     for (const Index node : rim) part.columns.points.push_back(part.mesh.nodes[index(node)]);
     for (const Index node : rim) {
-        const std::optional<Vec3>& place = places[index(part.node[index(node)])];
+        const std::optional<Vec3>& place = part.places[index(node)];
         if (!place) {
             throw NotSweepable(Message("sweep.imprint_torn",
                                        "nodes between faces of the target have no counterpart on the edges "
@@ -131,7 +147,13 @@ Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& co
     result.nodes.resize(source.quads.nodes.size());
     for (const auto& [target, over] : quads) {
         const Part part = part_of(source.quads, over, places);
-        const surface::Projector projector(imprint.volume->model, {target});
+        const Model& model = imprint.volume->model;
+        if (const auto given = surface::given_part(model, target, part.mesh.quads, part.places);
+            !given.empty()) {
+            for (std::size_t i = 0; i < part.node.size(); ++i) result.nodes[index(part.node[i])] = given[i];
+            continue;
+        }
+        const surface::Projector projector(model, {target});
         const Morphed piece = morph(
             part.mesh, part.columns, [&](std::span<Vec3> points) { projector.project(points, context); },
             context);

@@ -4,6 +4,7 @@
 #include <lacuna/surface/shared/given_nodes.h>
 #include <lacuna/surface/shared/source_mesh.h>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,14 @@ struct GivenTarget {
 /// @note  O(quads).
 GivenTarget given_target(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                          const SourceMesh& source, bool wedges = false);
+
+/// As `given_target()`, for one face of the target and the part of the source that is swept to this face.
+/// @param quads   the part of the source
+/// @param places  for each node of the part: its position on the target if it is on the rim of the part
+/// @return  the position of each node. Empty if the face has no given quads, if these are connected
+///          differently, or if a node of the rim is not a given one.
+std::vector<Vec3> given_part(const topology::Model& model, FaceId face, const std::vector<Quad>& quads,
+                             std::span<const std::optional<Vec3>> places);
 
 /// Rotate loops so that the given quads of both ends correspond. A loop is rotated if its walls have neither
 /// given columns nor side lines, so that they do not determine its rotation. Nothing is done unless both ends
