@@ -458,4 +458,15 @@ for number = 1, check.whole and 10 or 2 do
   is_meshed(number % 2 == 1 and shaft or valve, nil, nil, number % 2 == 1 and "tapered shaft" or "valve")
 end
 
+-- A cup with a groove around its bottom, and bores through its wall. No sweep runs between the faces that
+-- face up and those that face down: the groove sets the flange above it apart.
+for number = 1, check.whole and 10 or 1 do
+  local wide, deep, bore = random(20, 26), random(1.5, 3), random(4.5, 5.5)
+  is_meshed(cylinder(1, "0, 0, 0", "0, 0, 36", wide) .. cylinder(2, "0, 0, -1", "0, 0, 26", 0.75 * wide)
+    .. cylinder(3, "-50, 0, 14", "100, 0, 0", bore)
+    .. cylinder(4, "0, 0, 29", "0, 0, 3", 2 * wide) .. cylinder(5, "0, 0, 29", "0, 0, 3", wide - deep)
+    .. "BooleanDifference{ Volume{4}; Delete; }{ Volume{5}; Delete; }" .. combined("Difference", "2:4"),
+    nil, nil, "cup " .. number)
+end
+
 check.done()

@@ -150,7 +150,7 @@ public:
     }
 
     /// Whether two sets of faces can be the ends: each wall runs from end to end (`runs_between()`), so that
-    /// columns of nodes can follow the edges between walls.
+    /// columns of nodes can follow the edges between walls, and each end is connected.
     [[nodiscard]] bool are_ends(FaceSet source, FaceSet target) const
     {
         const FaceSet all = one(faces_.size()) - 1;
@@ -163,7 +163,8 @@ public:
         });
         if (!fits) return false;
         for_each(walls, [&](std::size_t f) { fits = fits && runs_between(faces_[f], source, target); });
-        return fits && rims_of(source) == rims_of(target) && rims_of(source) == parts_of(walls);
+        return fits && parts_of(source) == 1 && parts_of(target) == 1 && rims_of(source) == rims_of(target) &&
+               rims_of(source) == parts_of(walls);
     }
 
     /// Cost of two ends: 0 if they are flat, of equal area and perpendicular to their walls.
