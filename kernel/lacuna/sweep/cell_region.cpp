@@ -228,12 +228,14 @@ RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places,
             // A cell may be invalid even if the Jacobians at its corners are positive.
             if (scaled > 0 && !certified_positive(hex, corners)) scaled = 0;
             found.least = std::min(found.least, scaled);
+            found.folded += std::max(0.0, -scaled);
             found.lacking += std::max(0.0, region.aim[c] - scaled);
         }
     });
-    RegionQuality whole{1, 0, 0};
+    RegionQuality whole{1, 0, 0, 0};
     for (const RegionQuality& found : part) {
         whole.least = std::min(whole.least, found.least);
+        whole.folded += found.folded;
         whole.lacking += found.lacking;
         whole.mean += found.mean / static_cast<double>(std::max<std::size_t>(region.cells.size(), 1));
     }

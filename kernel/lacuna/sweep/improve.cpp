@@ -163,18 +163,22 @@ private:
         Eigen::VectorXd x = variables(best_);
         energy_.energy = {};
         int without_gain = 0;
-        double least_lacking = best_quality_.lacking;
+        RegionQuality reached = best_quality_;
         for (int round = 0; round < kMostRounds && without_gain < kIdleRounds && !out_of_time(); ++round) {
             const double determinant = energy_.least_determinant(x);
             energy_.energy.epsilon = geometry::epsilon_for(determinant);
-            const double before = best_quality_.least;
+            const double before = best_quality_.least, work = work_;
             descend(x, -1);
             // The worst cell may be the last to unfold. Progress of the other cells therefore counts as a
-            // gain too.
-            const double lacking = measure(region_, places_at(x), context_).lacking;
+            // gain too, but folds only if at this rate all would unfold in the rounds that are left.
+            const RegionQuality now = measure(region_, places_at(x), context_);
+            const double left = std::min<double>(kMostRounds - round,
+                                                 (options_.work - work_) / (work_ - work));
             const bool gain = best_quality_.least > before + kVisible ||
-                              lacking < least_lacking * (1 - kAlikeSizes);
-            least_lacking = std::min(least_lacking, lacking);
+                              (now.folded > 0 ? (reached.folded - now.folded) * left > now.folded
+                                              : now.lacking < reached.lacking * (1 - kAlikeSizes));
+            reached.folded = std::min(reached.folded, now.folded);
+            reached.lacking = std::min(reached.lacking, now.lacking);
             without_gain = gain ? 0 : without_gain + 1;
             if (best_quality_.least > 0 && best_quality_.lacking <= 0) return;
         }

@@ -41,6 +41,7 @@ struct RegionQuality {
     double least = 1; ///< minimum scaled Jacobian; 0 or less if a cell is not certified positive
     double mean = 1;
     double lacking = 0; ///< sum over the cells of the amount by which they miss `CellRegion::aim`
+    double folded = 0;  ///< sum over the cells with negative scaled Jacobians of their absolute values
 };
 
 RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places, const RunContext& context);
