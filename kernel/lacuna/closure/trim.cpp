@@ -108,6 +108,20 @@ bool crosses_inside(const Model& model, const std::vector<FaceId>& faces, const 
     });
 }
 
+bool is_flat_in(const Model& model, const std::vector<Vec3>& places, const geometry::Plane& plane)
+{
+    return std::ranges::all_of(
+        places, [&](const Vec3& p) { return std::abs(geometry::height(plane, p)) <= model.tolerance; });
+}
+
+/// Whether a rim of a part lies in a plane.
+bool has_rim_in(const Model& model, const std::vector<FaceId>& part, const geometry::Plane& plane)
+{
+    return std::ranges::any_of(rims(model, part), [&](const Rim& rim) {
+        return is_flat_in(model, loop_places(model, rim.uses), plane);
+    });
+}
+
 /// Whether another rim of some faces lies in the plane of a loop and encloses it.
 bool have_rim_around(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane,
                      const std::vector<Vec3>& loop)
@@ -115,9 +129,7 @@ bool have_rim_around(const Model& model, const std::vector<FaceId>& faces, const
     return std::ranges::any_of(rims(model, faces), [&](const Rim& rim) {
         const std::vector<Vec3> places = loop_places(model, rim.uses);
         if (std::ranges::find(places, loop.front()) != places.end()) return false; // the loop itself
-        return std::ranges::all_of(
-                   places,
-                   [&](const Vec3& p) { return std::abs(geometry::height(plane, p)) <= model.tolerance; }) &&
+        return is_flat_in(model, places, plane) &&
                geometry::lies_inside(flat_places(plane, places), geometry::to_plane(plane, loop.front()));
     });
 }
@@ -200,9 +212,7 @@ std::optional<geometry::Plane> plane_of_end(const Model& model, const std::vecto
                                             const std::vector<Vec3>& rim)
 {
     geometry::Plane plane = geometry::newell_plane(std::array{rim});
-    if (!std::ranges::all_of(
-            rim, [&](const Vec3& p) { return std::abs(geometry::height(plane, p)) <= model.tolerance; }))
-        return std::nullopt;
+    if (!is_flat_in(model, rim, plane)) return std::nullopt;
     Range range = heights(model, part, plane);
     if (-range.low < range.high) {
         plane = geometry::plane_across(plane.origin, -plane.normal);
@@ -286,6 +296,8 @@ std::optional<Overhang> find_overhang(const Model& whole, const std::vector<Face
                 const std::vector<FaceId>& part = parts[at.part];
                 if (!at.crosses)
                     out.insert(out.end(), at.flush.begin(), at.flush.end());
+                else if (has_rim_in(model, part, *plane))
+                    return false;
                 else if (!crosses_quads(model, part, *plane) && crosses_inside(model, part, *plane, loop))
                     out.insert(out.end(), part.begin(), part.end());
                 return true;

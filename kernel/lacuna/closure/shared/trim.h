@@ -45,7 +45,8 @@ struct Overhang {
 /// longer than its sleeve, or in whose plane they end with a face, which does not bound the volume. The part
 /// with the rim lies behind the plane. Parts with given quads that cross the plane do not count.
 /// The rim is no such rim in these cases:
-/// - A part lies in front of the plane: the volume continues there, and faces at a step are missing.
+/// - A part lies in front of the plane, or crosses it and has a rim in it: the volume continues there, and
+///   faces at a step are missing.
 /// - A face in the plane reaches across the rim: it closes the rim.
 /// - Another rim lies in the plane around it: a face between both rims is missing.
 /// - The rim belongs to a closed solid of the model that fills it: faces of that solid are missing.
