@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/quads/detail/plane_energy.h>
@@ -163,10 +164,8 @@ private:
             const Vec2 step(-(here.yy * here.slope.x() - here.xy * here.slope.y()) / det,
                             -(here.xx * here.slope.y() - here.xy * here.slope.x()) / det);
             const double side = here.sides / static_cast<double>(2 * star.size());
-            // Number of step lengths that are tried, each shorter than the previous one. Not measured.
-            constexpr int kTries = 4;
             double length = overstep;
-            for (int tries = 0; tries < kTries; ++tries, length = (length > 1 ? 1 : length / 2)) {
+            for (int idle = 0; idle < kIdleRounds; ++idle, length = (length > 1 ? 1 : length / 2)) {
                 const Vec2 to = points_[p] + length * step;
                 const double least = floor * floor;
                 double energy = lanes.energy(to, areas_.weight, least);
