@@ -15,11 +15,8 @@ GapFinder::GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops
     });
     low_ = box.min();
     diagonal_ = box.sizes().norm();
-    // Cells are as wide as a mean side, but there are at most kMostCells cells in each direction, so that a
-    // long side is in a limited number of cells. With more cells, sides are found faster, but the cells need
-    // more memory and more time to fill.
-    constexpr double kMostCells = 4096;
-    cell_ = std::max({sum / count, box.sizes().maxCoeff() / kMostCells, std::numeric_limits<double>::min()});
+    // With cells as wide as a mean side, the number of entries is proportional to the number of sides.
+    cell_ = std::max(sum / count, std::numeric_limits<double>::min());
     for_sides_of(loops, [&](Index from, Index to) {
         const Vec2 a = (partial.at(from) - low_) / cell_, b = (partial.at(to) - low_) / cell_;
         const auto steps = static_cast<int>((b - a).cwiseAbs().maxCoeff() * 2) + 1;
