@@ -18,11 +18,6 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Number of steps of a projection that use first derivatives only; later steps use second derivatives too.
-/// Near the surface, a step with first derivatives gains a digit or more. Points that are as far away as the
-/// radius of curvature need second derivatives.
-constexpr int kCheapSteps = 8;
-
 /// State of the projection of one point, in file lengths.
 struct Iterate {
     Vec3 target;
@@ -191,8 +186,10 @@ void project_on_face(const CadSource& source, int tag, std::span<Vec3> points, s
         const double precision = kSamePlace / 10 * source.diagonal; // see `kSamePlace`
         const std::vector<SurfaceFrame> frames = surface_frames(tag, start);
         for (std::size_t i = 0; i < all.size(); ++i) leave_pole(all[i], frames[i], tag, box, precision);
+        // Near the surface, a step with first derivatives gains a digit or more. Points that have not
+        // converged then are as far away as the radius of curvature, and need second derivatives too.
         for (int step = 0; step < kMostRounds; ++step) {
-            if (advance(all, active, tag, box, precision, step >= kCheapSteps) == 0) break;
+            if (advance(all, active, tag, box, precision, step >= kMostSteps) == 0) break;
         }
         for (const std::size_t i : active) {
             std::vector<double> closest, parameters;
