@@ -502,14 +502,12 @@ private:
     /// only the curvature of the face between them can be the cause.
     void tell_straight_from_cut()
     {
-        constexpr double kOnFace =
-            0.25; // of the distance found; a higher value reports more deviations as curvature. Not measured
         const Quad& quad = quads_[worst_];
         std::size_t facet = 0;
         double most = 0;
         for (std::size_t k = 0; k < 4; ++k) {
             const Vec3 &a = node(quad[k]), &b = node(quad[(k + 1) % 4]);
-            if (distance_to_face(a, facet) > kOnFace * result_.found) return;
+            if (distance_to_face(a, facet) > result_.allowed) return;
             const double sag = distance_to_face((a + b) / 2, facet);
             if (sag <= most) continue;
             most = sag;
