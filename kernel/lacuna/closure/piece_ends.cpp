@@ -29,10 +29,6 @@ constexpr std::size_t kMostEnds = 600;
 /// Subtracted from the cost of a pair for each end that the user named. A higher value keeps named ends at
 /// the price of worse cells.
 constexpr double kNamed = 0.1;
-/// Cost of each cut face that `unlike()` counts. It exceeds the costs of most ends, so that cuts whose rows
-/// of quads match come first.
-constexpr double kUnlikeCut = 10;
-
 using FaceSet = std::uint64_t;
 
 constexpr FaceSet one(std::size_t face) { return FaceSet{1} << face; }
@@ -352,20 +348,21 @@ ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context)
     if (all_fit) return {std::move(pieces)};
     // For each pair of ends of the first piece, choose the best pair of each following piece in turn.
     std::vector<const Ends*> best;
-    double least = kInfinity;
+    // Ends come first whose rows of quads match on most cuts.
+    std::pair least(kNoIndex, kInfinity);
     for (const Ends& first : ways.front()) {
         check_cancelled(context);
         std::vector<const Ends*> chosen{&first};
-        double sum = first.cost;
+        std::pair sum(std::size_t{0}, first.cost);
         for (std::size_t p = 1; p < ways.size(); ++p) {
             const auto worth = [&](const Ends& own) {
-                double cost = own.cost;
-                for (const Ends* other : chosen)
-                    cost += kUnlikeCut * static_cast<double>(unlike(own, *other));
+                std::pair cost(std::size_t{0}, own.cost);
+                for (const Ends* other : chosen) cost.first += unlike(own, *other);
                 return cost;
             };
             chosen.push_back(&*std::ranges::min_element(ways[p], {}, worth));
-            sum += worth(*chosen.back());
+            const auto last = worth(*chosen.back());
+            sum = {sum.first + last.first, sum.second + last.second};
         }
         if (sum >= least) continue;
         least = sum;
