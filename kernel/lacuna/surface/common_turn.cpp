@@ -78,8 +78,7 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPlaces>& pairs, 
 std::vector<Vec3> round_points(const Chain& chain)
 {
     std::vector<double> at;
-    for (std::size_t i = 0; i < kRingPoints; ++i)
-        at.push_back(chain.length() * static_cast<double>(i) / static_cast<double>(kRingPoints));
+    for (int i = 0; i < kFineChords; ++i) at.push_back(chain.length() * i / kFineChords);
     return chain.points(at);
 }
 
@@ -88,16 +87,16 @@ double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eige
     const Vec3 from = geometry::mean_point(source), to = geometry::mean_point(target);
     for (Vec3& p : source) p = turn * (p - from);
     for (Vec3& p : target) p -= to;
-    std::vector<double> apart(kRingPoints, 0);
-    for (std::size_t k = 0; k < kRingPoints; ++k) {
-        for (std::size_t i = 0; i < kRingPoints; ++i)
-            apart[k] += (source[i] - target[(i + k) % kRingPoints]).squaredNorm();
+    const std::size_t n = source.size();
+    std::vector<double> apart(n, 0);
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = 0; i < n; ++i) apart[k] += (source[i] - target[(i + k) % n]).squaredNorm();
     }
     const auto best = static_cast<std::size_t>(std::ranges::min_element(apart) - apart.begin());
-    const double low = apart[(best + kRingPoints - 1) % kRingPoints], high = apart[(best + 1) % kRingPoints];
+    const double low = apart[(best + n - 1) % n], high = apart[(best + 1) % n];
     const double bend = low + high - 2 * apart[best];
     const double between = bend > 0 ? (low - high) / (2 * bend) : 0;
-    const double share = (static_cast<double>(best) + between) / static_cast<double>(kRingPoints);
+    const double share = (static_cast<double>(best) + between) / static_cast<double>(n);
     return share - std::floor(share);
 }
 

@@ -287,9 +287,9 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
 {
     // Sections lie a quarter of the radius apart. Frames transported over bends in several planes are then
     // accurate to 2°.
-    constexpr double kRowsRound = 24, kLeastRows = 32, kMostRows = 2048;
     constexpr double kLeads = 0.2; // minimum length of the axis, in radii of the sections; heuristic
-    const double rows = std::ceil(std::clamp(kRowsRound * height_ / width_, kLeastRows, kMostRows));
+    const double rows = std::ceil(
+        std::clamp(kSamplesPerSide * kFullTurn * height_ / width_, double{kFineChords}, kMostSamples));
     std::vector<std::vector<Vec3>> rings;
     std::vector<Vec3> middles, areas;
     std::vector<double> widths;
@@ -304,7 +304,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         }
         areas.push_back(geometry::newell_vector(ring).stableNormalized());
         ring.push_back(ring.front());
-        middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
+        middles.push_back(geometry::mean_point(geometry::even_places(ring, kFineChords)));
         widths.push_back(geometry::length(ring) / kFullTurn);
     }
     // The direction of the sweep at each section is that of the line through the centres. If the sections are
@@ -323,7 +323,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         round.push_back(geometry::arc_lengths(rings[k]));
         const double length = round.back().back();
         for (double& at : round.back()) at /= length;
-        std::vector<Vec3> even = geometry::even_places(rings[k], kRingPoints);
+        std::vector<Vec3> even = geometry::even_places(rings[k], kFineChords);
         even.pop_back();
         if (k == 0) first = even;
         if (k > 0) turn = geometry::least_turn(ways[k - 1], ways[k]) * turn;

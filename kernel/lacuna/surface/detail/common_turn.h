@@ -19,16 +19,13 @@ struct CommonTurn {
     double branch = 0;
 };
 
-/// Number of points around a ring: one every 3.75°. The best shift between points is interpolated by a
-/// parabola.
-inline constexpr std::size_t kRingPoints = 96;
-
-/// `kRingPoints` points at even steps of a closed chain.
+/// `kFineChords` points at even steps of a closed chain.
 std::vector<Vec3> round_points(const Chain& chain);
 
 /// The shift of the target's points relative to the source's, in turns [0, 1). It minimizes the distance
 /// between the two rings after both are moved to a common centre and the source's ring is rotated by `turn`.
-/// @pre  both have `kRingPoints` points at even steps.
+/// Between the points, a parabola interpolates the best shift.
+/// @pre  both have equally many points at even steps.
 double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn);
 
 /// For each linking surface without side lines, its rotation. The rotation is that of the rigid motion that
