@@ -12,16 +12,13 @@
 #include <cmath>
 #include <map>
 #include <unordered_map>
+#include <utility>
 
 namespace lacuna::surface {
 
 using namespace topology;
 
 namespace {
-
-/// Number of Newton iterations on a curve. The iterations start at most a few percent of a side away from the
-/// solution and converge quadratically. Heuristic.
-constexpr int kRounds = 3;
 
 /// Maximum height of a convex curve over its chord, as a share of the chord's length.
 /// @param first, second  angles between curve and chord at the two ends [radian].
@@ -38,9 +35,11 @@ struct OnCurve {
     Vec3 tangent = Vec3::Zero();
 };
 
-void step_along(const geometry::ExactCurve& curve, std::span<OnCurve> places, std::span<const Vec3> targets,
-                double low, double high)
+/// One step for each place. @return  the longest step, as a share of a side
+double step_along(const geometry::ExactCurve& curve, std::span<OnCurve> places, std::span<const Vec3> targets,
+                  double low, double high)
 {
+    double longest = 0;
     std::vector<double> params;
     for (OnCurve& place : places) {
         const double middle = std::clamp(place.param, low + place.difference, high - place.difference);
@@ -59,9 +58,11 @@ void step_along(const geometry::ExactCurve& curve, std::span<OnCurve> places, st
         // Limit the step to one side.
         const double most = 1 / kDifference * place.difference;
         const double next = params[3 * i + 1] + std::clamp(step, -most, most);
-        place.param = std::clamp(next, low, high);
+        const double from = std::exchange(place.param, std::clamp(next, low, high));
         place.tangent = first + (place.param - params[3 * i + 1]) * second;
+        longest = std::max(longest, std::abs(place.param - from) / most);
     }
+    return longest;
 }
 
 } // namespace
@@ -220,7 +221,8 @@ void Trimming::settle(std::span<const Projected> points, std::span<Near> near) c
         places.push_back({from + share * (to - from), kDifference * std::abs(to - from)});
         targets.push_back(*points[n.point].at);
     }
-    for (int round = 0; round < kRounds; ++round) step_along(*edge.curve, places, targets, low, high);
+    for (int step = 0; step < kMostSteps; ++step)
+        if (step_along(*edge.curve, places, targets, low, high) <= kSamePlace) break;
     std::vector<double> params;
     for (const OnCurve& place : places) params.push_back(place.param);
     std::vector<Vec3> at(params.size());
