@@ -23,9 +23,6 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of Gauss-Newton steps in a round, and maximum number of rounds. Each round doubles the
-/// weight of evenness. Heuristic.
-constexpr int kRounds = 5;
 /// Allowed range of a side's length, relative to its original length. It is narrower than the accepted range
 /// of sizes, 0.6 to 1.6.
 constexpr double kShortest = 0.75, kLongest = 1.35;
@@ -467,9 +464,9 @@ private:
     bool square(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                 std::size_t variables)
     {
-        double weight = 1;
+        double weight = 1;        // of evenness: with a large one, all sides get the same length
         std::vector<Line> uneven; // lines of the last round in which the sides were uneven
-        for (int round = 0; round < kRounds; ++round, weight *= 2) {
+        for (int round = 0; round < kMostSteps; ++round, weight *= 2) {
             for (int k = 0; k < kMostSteps && step(lines, rungs, weight, variables) > kVisible; ++k) {}
             if (is_even(lines)) {
                 if (!uneven.empty()) go_towards(lines, rungs, uneven);
