@@ -5,6 +5,7 @@
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/contacts.h>
@@ -489,12 +490,10 @@ void report_left_out(const Volume& volume, std::vector<std::string>& report)
 void partitions(const topology::OpenVolume& sealed, const closure::TakePieces& take,
                 const RunContext& context)
 {
-    // If a strip beside a cut is thinner than this share of the cell size, its cells would be far smaller
-    // than all others. Not measured.
-    constexpr double kThin = 0.1;
+    // No piece is a strip that is a sliver beside cells of the default size.
     closure::partitions(
         sealed, [&](const topology::OpenVolume& piece) { return !follow_walls(piece, context).refused; },
-        kThin * surface::default_size(sealed).length, take, context);
+        kOnePoint * surface::default_size(sealed).length, take, context);
 }
 
 bool may_cut(const Volume& volume, bool mixed)
