@@ -3,14 +3,6 @@
 
 namespace lacuna::quads::cleaning {
 
-namespace {
-
-/// Maximum number of points that are visited in the search for irregular points around a seed. It limits the
-/// distance over which irregular points are paired.
-constexpr std::size_t kLookedAt = 900;
-
-} // namespace
-
 void PatchGrower::start(Index seed, std::size_t others)
 {
     look_for_others(seed, others);
@@ -29,7 +21,7 @@ void PatchGrower::look_for_others(Index seed, std::size_t most)
     parent_[seed] = -1;
     std::vector<Index>& queue = seen_points_;
     queue.assign(1, seed);
-    for (std::size_t i = 0; i < queue.size() && queue.size() < kLookedAt && others_.size() < most; ++i) {
+    for (std::size_t i = 0; i < queue.size() && others_.size() < most; ++i) {
         const Index here = queue[i];
         const auto see = [&](Index p) {
             if (parent_.has(p)) return;
