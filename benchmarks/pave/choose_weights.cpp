@@ -50,7 +50,6 @@ std::vector<CutWeights> candidates(bool few)
         for (double* weight : {&row.corners, &row.added, &row.length, &row.mismatch, &row.bent})
             *weight *= factor();
         row.least_patch = std::array{0.6, 0.5, 0.7, 0.4}[std::size_t(dice.whole(0, last))];
-        row.most_patch = std::array{0.9, 0.8, 0.85, 0.7}[std::size_t(dice.whole(0, last))];
         rows.push_back(row);
     }
     return rows;
@@ -72,7 +71,6 @@ void print(const CutWeights& row)
     add("mismatch", row.mismatch, usual.mismatch);
     add("bent", row.bent, usual.bent);
     add("least_patch", row.least_patch, usual.least_patch);
-    add("most_patch", row.most_patch, usual.most_patch);
     std::printf("{%s},", text.c_str());
 }
 

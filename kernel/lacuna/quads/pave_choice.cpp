@@ -32,32 +32,24 @@ constexpr std::size_t kSmall = 4000;
 /// 48 candidates to maximise the mean score of the best attempt over 220 generated outlines. Each further row
 /// would gain less than 0.001.
 constexpr std::array<CutWeights, 7> kCutWeights{{
-    {.corners = 0.5, .added = 0.75, .bent = 0.375, .least_patch = 0.5, .most_patch = 0.8},
-    {.added = 0.5, .mismatch = 0.5, .bent = 0.375, .least_patch = 0.5, .most_patch = 0.85},
-    {.corners = 0.5, .added = 0.75, .mismatch = 2, .bent = 0.375, .most_patch = 0.8},
+    {.corners = 0.5, .added = 0.75, .bent = 0.375, .least_patch = 0.5},
+    {.added = 0.5, .mismatch = 0.5, .bent = 0.375, .least_patch = 0.5},
+    {.corners = 0.5, .added = 0.75, .mismatch = 2, .bent = 0.375},
     {.corners = 0.5, .length = 1.35, .mismatch = 0.75, .bent = 1},
-    {.corners = 0.75, .length = 1.35, .mismatch = 0.5, .least_patch = 0.7, .most_patch = 0.8},
+    {.corners = 0.75, .length = 1.35, .mismatch = 0.5, .least_patch = 0.7},
     {.added = 0.5, .length = 0.75, .mismatch = 1.35, .bent = 0.25},
-    {.corners = 0.75, .added = 0.75, .length = 0.5, .bent = 0.675, .most_patch = 0.85},
+    {.corners = 0.75, .added = 0.75, .length = 0.5, .bent = 0.675},
 }};
 
 /// Weights for few quads without rows along the boundary: the first rows that `choose_weights few 101 120`
 /// prints (`benchmarks/pave/`), chosen greedily from 64 candidates on 355 generated outlines of 60 to 400
 /// quads. A fourth row would gain less than 0.01.
 constexpr std::array<CutWeights, 3> kFewWeights{{
-    {.corners = 0.5, .added = 0.5, .mismatch = 2, .least_patch = 0.5, .most_patch = 0.85},
+    {.corners = 0.5, .added = 0.5, .mismatch = 2, .least_patch = 0.5},
     {.added = 0.5, .length = 0.75, .mismatch = 1.35, .bent = 0.25},
-    {.corners = 0.75,
-     .added = 0.5,
-     .length = 2,
-     .mismatch = 2,
-     .bent = 0.375,
-     .least_patch = 0.7,
-     .most_patch = 0.7},
+    {.corners = 0.75, .added = 0.5, .length = 2, .mismatch = 2, .bent = 0.375, .least_patch = 0.7},
 }};
 
-/// Score at which no further weights are tried. The maximum is 3.325, so that little more can be gained.
-constexpr double kGoodEnough = 3.3;
 /// A mesh is kept without further trials if it satisfies these bounds for the scaled Jacobian of its worst
 /// quad, and for the share of rows with the requested height. Its number of irregular nodes must also be at
 /// most kNearLeast times the topological minimum, plus kFewMore.
@@ -264,8 +256,6 @@ void AttemptChooser::pave_in(RowStyle style) { finish(begin(style)); }
 
 bool AttemptChooser::is_small() const { return best_.mesh.quads.size() <= kSmall; }
 
-bool AttemptChooser::is_good_enough() const { return best_score_ >= kGoodEnough || is_near_least_; }
-
 void AttemptChooser::try_grids()
 {
     // Share of edges that must have the requested size: nearly all if some grid achieves this, otherwise
@@ -447,7 +437,7 @@ void AttemptChooser::try_few_weights()
     for (const CutWeights& weights : kFewWeights) begin_one(RowStyle::no_rows, weights);
     begin_one(RowStyle::by_shape, cut_weight_rows().front());
     std::ranges::stable_sort(begun, [](const Begun& a, const Begun& b) { return a.irregular < b.irregular; });
-    for (std::size_t i = 0; i < begun.size() && !is_good_enough(); ++i) {
+    for (std::size_t i = 0; i < begun.size() && !is_near_least_; ++i) {
         if (i >= kFinished && best_.worst > fair) return;
         finish(std::move(begun[i].attempt));
     }
@@ -462,7 +452,7 @@ void AttemptChooser::try_default_weights()
         if (best_.worst > kPoorQuad) return;
     }
     pave_in(RowStyle::by_shape);
-    if (best_.worst <= 0 || (is_small() && !is_good_enough())) pave_in(RowStyle::no_rows);
+    if (best_.worst <= 0 || (is_small() && !is_near_least_)) pave_in(RowStyle::no_rows);
 }
 
 double AttemptChooser::score_with(RowStyle style, const CutWeights& weights) const
@@ -474,11 +464,11 @@ double AttemptChooser::score_with(RowStyle style, const CutWeights& weights) con
 
 void AttemptChooser::try_all_weights()
 {
-    if (best_.worst <= setting_.flat || !is_small() || is_good_enough()) return;
+    if (best_.worst <= setting_.flat || !is_small() || is_near_least_) return;
     if ((is_few_ || is_set_by_outline_) && best_.worst > kPoorQuad) return;
     int idle = 0; // if other cuts do not help, the outline is the cause
     for (const CutWeights& weights : cut_weight_rows()) {
-        if (idle == kIdleRounds || is_good_enough()) return;
+        if (idle == kIdleRounds || is_near_least_) return;
         const double before = best_score_;
         finish(begin(best_.style, weights));
         idle = best_score_ > before ? 0 : idle + 1;

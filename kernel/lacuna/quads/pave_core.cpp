@@ -7,21 +7,6 @@
 #include <lacuna/quads/detail/pave_patch.h>
 
 namespace lacuna::quads::paving {
-namespace {
-
-/// The quality above which a part with `nodes` nodes is filled without a cut. It rises with the size of the
-/// part: a cut adds a few irregular nodes whatever the size, but a poor patch makes all its quads poor.
-double good_patch(const CutWeights& weights, std::size_t nodes)
-{
-    // Above kFrom nodes, the bound rises by kSlope with each doubling of the outline. With a steeper slope,
-    // large parts are cut more often.
-    constexpr double kSlope = 0.2, kFrom = 32;
-    return std::clamp(weights.least_patch + kSlope * std::log2(static_cast<double>(nodes) / kFrom),
-                      weights.least_patch, weights.most_patch);
-}
-
-} // namespace
-
 bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, const RunContext& context)
 {
     bool is_one_patch = false;
@@ -39,7 +24,7 @@ bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, const RunC
         const std::vector<double> angles = corner_angles(partial.points, cycle);
         const PatchFit fit = fit_patch(partial, cycle, angles);
         std::optional<Cut> cut;
-        if (fit.quality < good_patch(partial.weights, cycle.size())) cut = best_cut(partial, cycle, angles);
+        if (fit.quality < partial.weights.least_patch) cut = best_cut(partial, cycle, angles);
         if (!cut && fit.quality > 0 && fill_patch(partial, cycle, fit.corners)) {
             is_one_patch = is_whole;
             continue;

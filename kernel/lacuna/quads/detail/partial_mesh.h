@@ -22,8 +22,7 @@ struct CutWeights {
     double length = 1;        ///< length of the cut relative to the outline that it cuts off
     double mismatch = 1;      ///< unequal numbers of opposite sides in the parts
     double bent = 0.5;        ///< bonus for a cut that ends where the outline turns inward
-    double least_patch = 0.6; ///< quality from which a small part is filled without a cut [-]
-    double most_patch = 0.9;  ///< quality from which a large part is filled without a cut [-]
+    double least_patch = 0.6; ///< quality from which a part is filled without a cut [-]
 };
 
 /// The mesh under construction. The first `fixed` points are the region's own.

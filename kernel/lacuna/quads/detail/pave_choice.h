@@ -102,7 +102,6 @@ private:
     /// The score of an attempt. If its mesh has a fault, `made.worst` is set to -1.
     Judged judge_score(Attempt& made) const;
     [[nodiscard]] bool is_small() const;
-    [[nodiscard]] bool is_good_enough() const;
 
     const PlanarRegion& region_;
     PlanarRegion judged_; ///< the region with the size that its given sides permit
