@@ -396,9 +396,6 @@ private:
 std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeField& size, std::size_t about,
                                       int more_sides)
 {
-    // A straight grid has four irregular nodes for each loop. With more corners, a ring would have at least
-    // as many.
-    constexpr int kMostCorners = 4;
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
     const double height = size(region.points[index(region.loops[about].front())]);
     const int pairs = std::abs(more_sides) / 2, rows = widths.changing(height);
@@ -407,19 +404,18 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeFiel
         if (more_sides > 0 && pairs <= rows) patterns.push_back({about, 1, pairs, 0});
         return patterns;
     }
-    for (int corners = 1; corners <= std::min(pairs, kMostCorners); ++corners) {
+    for (int corners = 1; corners <= pairs && patterns.size() < kCandidates; ++corners) {
         if ((pairs + corners - 1) / corners <= rows) patterns.push_back({about, 1, 0, corners});
     }
     return patterns;
 }
 
-/// Whether nearly all quads of a mesh are square and have the requested size, and the rows along the boundary
+/// Whether no quad of a mesh is poor, nearly all have the requested size, and the rows along the boundary
 /// are good. With higher bounds, the search continues more often and finds better meshes, but takes longer.
 bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
-    constexpr double kMean = 0.92;
-    return quality.min_scaled_jacobian > least && quality.mean_scaled_jacobian > kMean &&
-           quality.size_share() > kPromisedShare && quality.row_share() >= rows;
+    return quality.min_scaled_jacobian > least && quality.size_share() > kPromisedShare &&
+           quality.row_share() >= rows;
 }
 
 /// The corners of the only loop of a region: the nodes whose angle suits one quad. Empty if the angle of some
