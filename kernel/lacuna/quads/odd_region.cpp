@@ -23,10 +23,6 @@
 namespace lacuna::quads {
 namespace {
 
-/// Only this many quads of a row, counted from the boundary, are tried as the triangle, so the triangle is
-/// near the boundary.
-constexpr std::size_t kRowSteps = 8;
-
 /// Quality of a quad. The quality of a triangle is relative to an equilateral triangle.
 double quality_of(std::span<const Vec2> points, const Quad& cell)
 {
@@ -186,9 +182,9 @@ Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index mid
     Window window;
     window.nodes.push_back(middle);
     number[index(middle)] = 0;
-    // A row extends at most kRowSteps - 1 rings from the middle node, the nodes that move lie up to kRings
+    // A row extends at most kCandidates - 1 rings from the middle node, the nodes that move lie up to kRings
     // further, and one more ring contains their cells. The other two rings are a margin.
-    for (std::size_t ring = 0, begin = 0; ring < kRowSteps + cleaning::kRings + 2; ++ring) {
+    for (std::size_t ring = 0, begin = 0; ring < kCandidates + cleaning::kRings + 2; ++ring) {
         const std::size_t end = window.nodes.size();
         for (; begin < end; ++begin) {
             for (const Index q : at.of(index(window.nodes[begin]))) {
@@ -240,7 +236,7 @@ std::vector<Row> rows_from(const Window& window)
         Row row;
         std::set<Index> touched;
         Index side = first;
-        for (std::size_t step = 0; step < kRowSteps && side >= 0; ++step) {
+        for (std::size_t step = 0; step < kCandidates && side >= 0; ++step) {
             const Index a = end_of(side, 0), b = end_of(side, 1);
             // Two boundary nodes must not be merged, unless one of them is the added node.
             const bool both = window.on_rim[index(a)] != 0 && window.on_rim[index(b)] != 0;
