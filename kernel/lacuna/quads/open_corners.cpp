@@ -38,11 +38,9 @@ std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer
         room = std::min(room, corner_sine(cross(side, centre - outer[k]), side.norm()));
     }
     if (!(room > 0)) return std::nullopt;
-    // Radius of the inner quad, as a share of the radius of the circle that touches the nearest side. The
-    // value is a compromise between flat outer quads and a tiny inner quad.
-    constexpr double kOfRoom = 0.4;
+    // The corners of the inner quad are half way to the circle that touches the nearest side.
     std::array<Vec2, 4> inner;
-    for (std::size_t k = 0; k < 4; ++k) inner[k] = centre + kOfRoom * room * (outer[k] - centre).normalized();
+    for (std::size_t k = 0; k < 4; ++k) inner[k] = centre + room / 2 * (outer[k] - centre).normalized();
     return inner;
 }
 
