@@ -50,13 +50,12 @@ bool can_be_halved(const CountTask& task, const std::vector<int>& counts)
     return true;
 }
 
-/// Twice the numbers of sides of a region with twice the size. @return empty if some numbers are given or too
-/// small
+/// Twice the numbers of sides of a region with twice the size. @return empty if some numbers are given
 std::optional<std::vector<int>> even_counts(const CountTask& task)
 {
     std::vector<BoundarySegment> segments(task.segments.begin(), task.segments.end());
     for (BoundarySegment& own : segments) {
-        if (own.fixed || own.wanted < kFewestEven) return std::nullopt;
+        if (own.fixed) return std::nullopt;
         own = {own.wanted / 2, (own.least + 1) / 2};
     }
     auto counts = counts_for(CountTask(task.region, task.segment, segments, task.context));

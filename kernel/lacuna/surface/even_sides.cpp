@@ -96,8 +96,7 @@ void make_halvable(const SeedTask& task, const FaceGrids& grids, const std::set<
     for (const auto& [edge, faces] : task.users) {
         if (settled.contains(edge) || !std::ranges::all_of(faces, is_many)) continue;
         for (SeedPiece& piece : seeds.pieces.at(edge)) {
-            if (!piece.fixed && piece.rows() == 0 && piece.sides >= quads::kFewestEven)
-                piece.count = quads::even_sides(piece.sides, piece.least);
+            if (!piece.fixed && piece.rows() == 0) piece.count = quads::even_sides(piece.sides, piece.least);
         }
     }
 }

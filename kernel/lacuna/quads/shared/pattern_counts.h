@@ -29,9 +29,6 @@ inline constexpr double kManyQuads = 20'000;
 inline constexpr double kFewQuads = 200;
 /// Number of candidates that are tried, in the order of their estimated cost.
 inline constexpr std::size_t kCandidates = 4;
-/// A segment with fewer wanted sides than this need not get an even number of sides, because rounding would
-/// change its edge length too much.
-inline constexpr double kFewestEven = 8;
 
 /// Numbers of sides with which `fill_patterns()` fills a region by one grid (interval assignment).
 ///
