@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/pattern_loop.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
@@ -72,10 +73,6 @@ bool is_soft(double own, int turn, TurnStyle style)
     return turn != 0 && std::abs(own - turn) > limit;
 }
 
-/// Cost of a soft turn for `TurnStyle::few_soft`: the deviation of angles that is accepted to avoid an
-/// irregular node. For comparison, a side perpendicular to its heading costs 1. Not measured.
-constexpr double kSoftTurn = 0.5;
-
 /// Finds the headings with the least cost, for a given heading of the first side.
 class HeadingSearch {
 public:
@@ -145,8 +142,9 @@ private:
     }
     [[nodiscard]] double node_cost(std::size_t i, int turn) const
     {
+        // With few soft turns, each costs as much as a side that is perpendicular to its heading.
         const bool costs = style_ == TurnStyle::few_soft && is_soft(angles_.turn[i], turn, style_);
-        return square(angles_.turn[i] - turn) + (costs ? kSoftTurn : 0);
+        return square(angles_.turn[i] - turn) + (costs ? 1 : 0);
     }
 
     const LoopAngles& angles_;
@@ -171,10 +169,8 @@ Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop)
 
 double main_angle(const PlanarRegion& region)
 {
-    // The boundary has no main direction if the absolute value of the sum is less than this share of the sum
-    // of all absolute values. An example is a regular octagon with round corners. With a higher value, the
-    // centres of the loops decide more often.
-    constexpr double kClear = 0.1;
+    // The boundary has no main direction if the directions cancel each other up to errors of coordinates. An
+    // example is a regular octagon.
     std::complex<double> sum = 0;
     double whole = 0;
     const auto add = [&](const Vec2& along) {
@@ -184,7 +180,7 @@ double main_angle(const PlanarRegion& region)
         sum += length * std::pow(unit, 4);
         whole += length;
     };
-    const auto clear = [&] { return std::abs(sum) > kClear * whole; };
+    const auto clear = [&] { return std::abs(sum) > kFileAccuracy * whole; };
     for (const auto& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i)
             add(point_of(region.points, loop, i + 1) - point_of(region.points, loop, i));
@@ -215,11 +211,9 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
                                      const LoopFrame& frame, TurnStyle style)
 {
     // Weight of a side's direction relative to a node's angle. For a grid around a hole the angles must
-    // decide, because the sides of a slot do not follow circles. The weight is therefore divided by the
-    // number of sides.
-    constexpr double kStraight = 1, kRound = 2;
+    // decide, because the sides of a slot do not follow circles. There, all sides together weigh one.
     const LoopAngles angles = angles_of(points, loop, frame);
-    HeadingSearch search(angles, frame.polar ? kRound / static_cast<double>(loop.size()) : kStraight, style);
+    HeadingSearch search(angles, frame.polar ? 1 / static_cast<double>(loop.size()) : 1, style);
     PatternLoop headed{loop, {}, angles.direction, {}, {}, angles.turns};
     double least = kInfinity;
     for (int s = 0; s < HeadingSearch::kWidth; ++s) {
@@ -252,13 +246,10 @@ bool has_doubtful_turns(const PlanarRegion& region)
 
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop)
 {
-    // If the boundary turns by more than this at a node, the node is an end of the boundary, and a ring grid
-    // must not pass it straight [right angles]. These are angles of up to 112°; two quads there would have a
-    // sine of 0.83.
-    constexpr double kEnd = 0.75;
+    // A ring grid must not pass an end of the boundary straight.
     for (std::size_t i = 0; i < loop.size(); ++i) {
         if (loop.movable[i]) return false;
-        if (loop.turn(i) == 0 && 2 - corner_angle(points, loop.nodes, i) / kRightAngle > kEnd) return false;
+        if (loop.turn(i) == 0 && corner_angle(points, loop.nodes, i) < kCornerBelow * kDegree) return false;
     }
     return loop.turns == 0;
 }
