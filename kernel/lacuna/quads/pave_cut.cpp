@@ -8,9 +8,6 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Smallest angle between a line and the outline: 15°. A quad with a sharper angle would be a sliver.
-constexpr double kLeastAngle = kRightAngle / 6;
-
 /// Square of the difference between an angle and the nearest multiple of a right angle, in units of half a
 /// right angle.
 double angle_cost(double angle)
@@ -137,9 +134,10 @@ private:
         const Vec2 along = at(j) - at(i);
         const double heading = std::atan2(along.y(), along.x());
         const double part_i = whole_turn(heading - heading_[i]);
-        if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle) return std::nullopt;
+        // A quad with a sharper angle would be flat.
+        if (part_i < kFlatQuad || part_i > angles_[i] - kFlatQuad) return std::nullopt;
         const double part_j = whole_turn(heading + std::numbers::pi - heading_[j]);
-        if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
+        if (part_j < kFlatQuad || part_j > angles_[j] - kFlatQuad) return std::nullopt;
         const double arc = arc_[j] - arc_[i];
         // Length relative to the outline that the line cuts off.
         const double reach = along.norm() / std::min(arc, arc_[n_] - arc);
