@@ -28,15 +28,7 @@ std::size_t corner_count(const GridLoop& loop)
 
 } // namespace
 
-int grid_quads(double angle)
-{
-    constexpr double kOff = kRightAngle * 4 / 9; // 40°, which leaves a sine of 0.77 at a corner. Not measured
-    const int quads = quads_in(angle);
-    // If an angle is nearest to a straight angle, it is always a side: outlines with few nodes bend by up to
-    // 45° at each node.
-    if (quads == 2) return 2;
-    return quads <= 4 && std::abs(angle - quads * kRightAngle) <= kOff ? quads : 0;
-}
+int grid_quads(double angle) { return static_cast<int>(std::lround(angle / kRightAngle)); }
 
 std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& context)
 {
@@ -61,15 +53,7 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     grid.add_cells(mesh);
     const auto size = paving::sizes_with_boundary(region).usual;
     smooth_plane(mesh.points, mesh.quads, fixed, {.size = size, .repairs = 0}, context);
-    // Poor quads are improved one by one only if their share of all quads is at most this. A grid that is
-    // poor everywhere would not become good.
-    constexpr double kFewPoor = 0.1;
-    const SmoothPlaneOptions repairs{.size = size, .sweeps = 0, .untangle = false};
-    const auto poor = std::ranges::count_if(mesh.quads, [&](const Quad& quad) {
-        return scaled_jacobian(mesh.points, quad) < repairs.good_enough;
-    });
-    if (static_cast<double>(poor) <= kFewPoor * static_cast<double>(mesh.quads.size()))
-        smooth_plane(mesh.points, mesh.quads, fixed, repairs, context);
+    smooth_plane(mesh.points, mesh.quads, fixed, {.size = size, .sweeps = 0, .untangle = false}, context);
     if (!find_fault(mesh, region).empty()) return std::nullopt;
     return mesh;
 }

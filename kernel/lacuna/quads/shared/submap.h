@@ -30,7 +30,7 @@ namespace lacuna::quads {
 std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& context = {});
 
 /// Number of quads of a grid that suit a boundary node with the given inner angle: 1 at an end (about 90°), 2
-/// on a side (180°), 3 at a corner (270°), 4 at a reversal (360°). 0 if the angle is too far from all these.
+/// on a side (180°), 3 at a corner (270°), 4 at a reversal (360°). 0 if the angle is too sharp for an end.
 /// @param angle  from 0 to 2π [radians].
 int grid_quads(double angle);
 
