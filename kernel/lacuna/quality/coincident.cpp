@@ -13,14 +13,13 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr std::size_t kChunk = 16384; // points of one parallel task
-constexpr std::size_t kBins = 1024;   // bins are small enough for the first-level cache
+constexpr std::size_t kBins = 1024; // bins are small enough for the first-level cache
 /// Up to this number of points, the entries of all bins are made at once: 32 MB.
 constexpr std::size_t kFew = std::size_t(1) << 22;
 /// Up to this number of points per level, a level is searched at once: its entries take 1 MB.
 constexpr std::size_t kLevel = std::size_t(1) << 17;
 
-std::size_t chunk_count(std::size_t points) { return (points + kChunk - 1) / kChunk; }
+std::size_t chunk_count(std::size_t points) { return (points + kBetweenPolls - 1) / kBetweenPolls; }
 
 struct Entry {
     std::uint32_t hash;
@@ -29,8 +28,8 @@ struct Entry {
 
 /// Hashes computed in the first pass over a chunk.
 struct ChunkHashes {
-    std::array<std::uint32_t, kChunk> first; ///< for each point
-    std::vector<Entry> more;                 ///< for points that are also entered in a second cube
+    std::array<std::uint32_t, kBetweenPolls> first; ///< for each point
+    std::vector<Entry> more;                        ///< for points that are also entered in a second cube
     std::array<std::uint32_t, kBins> count{};
 };
 
@@ -44,12 +43,12 @@ std::unique_ptr<ChunkHashes[]> hashes_of(std::span<const Vec3> points, const Coi
     use_large_pages(hashes.get(), chunks * sizeof(ChunkHashes));
     parallel_each(context, chunks, 1, [&](std::size_t c) {
         ChunkHashes& chunk = hashes[c];
-        for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p) {
+        for (std::size_t p = c * kBetweenPolls; p < std::min((c + 1) * kBetweenPolls, points.size()); ++p) {
             bool first = true;
             grid.visit(points[p], [&](std::uint32_t hash) {
                 ++chunk.count[bin_of(hash)];
                 if (first)
-                    chunk.first[p - c * kChunk] = hash;
+                    chunk.first[p - c * kBetweenPolls] = hash;
                 else
                     chunk.more.push_back({hash, static_cast<Index>(p)});
                 first = false;
@@ -89,8 +88,8 @@ void sort_into_bins(std::size_t points, const ChunkHashes* hashes, std::size_t f
             const std::size_t b = bin_of(hash) - first;
             if (b < width) bins.entries[next[c * width + b]++] = {hash, point};
         };
-        for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points); ++p)
-            enter(hashes[c].first[p - c * kChunk], static_cast<Index>(p));
+        for (std::size_t p = c * kBetweenPolls; p < std::min((c + 1) * kBetweenPolls, points); ++p)
+            enter(hashes[c].first[p - c * kBetweenPolls], static_cast<Index>(p));
         for (const Entry& entry : hashes[c].more) enter(entry.hash, entry.point);
     });
 }
@@ -238,8 +237,8 @@ Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext
     std::vector<Eigen::AlignedBox3d> boxes(chunks);
     std::vector<char> finite(chunks, 1);
     parallel_each(context, chunks, 1, [&](std::size_t c) {
-        const std::size_t first = c * kChunk;
-        finite[c] = extend(boxes[c], points.subspan(first, std::min(kChunk, points.size() - first)));
+        const std::size_t first = c * kBetweenPolls;
+        finite[c] = extend(boxes[c], points.subspan(first, std::min(kBetweenPolls, points.size() - first)));
     });
     Eigen::AlignedBox3d bounds;
     for (std::size_t c = 0; c < chunks; ++c) {
