@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/seed_program.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/surface/detail/interval_program.h>
 #include <lacuna/surface/detail/round_sides.h>
 
@@ -270,10 +271,7 @@ double quads_of(const Program& program, const std::vector<int>& counts)
 /// of the face's sides suggest.
 std::vector<int> solve_for_quads(const Program& program)
 {
-    // Results within `kQuadsOff` (a quarter) of the requested number of quads are preferred. Within `kNear`,
-    // no correction is tried. `kNear` and `kTries` are heuristic.
-    constexpr double kNear = 0.1;
-    constexpr int kTries = 4;
+    // Results within `kQuadsOff` (a quarter) of the requested number of quads are preferred.
     std::vector<int> best = solve(program, 1), counts = best;
     const auto rank = [&](const std::vector<int>& of) {
         const double off = quads_of(program, of) - program.asked;
@@ -281,12 +279,15 @@ std::vector<int> solve_for_quads(const Program& program)
                          cost_of_intervals(program.intervals, of) + kQuadsOff * off * off / program.asked);
     };
     double share = 1;
-    for (int i = 0; i < kTries; ++i) {
+    for (int idle = 0; idle < kIdleRounds; ++idle) {
         const double quads = quads_of(program, counts);
-        if (quads == 0 || std::abs(quads - program.asked) <= kNear * program.asked) break;
+        if (quads == 0) break;
         share *= std::sqrt(program.asked / quads);
-        counts = solve(program, share);
-        if (quads_of(program, counts) > 0 && rank(counts) < rank(best)) best = counts;
+        const std::vector<int> last = std::exchange(counts, solve(program, share));
+        if (counts == last) break;
+        if (quads_of(program, counts) == 0 || !(rank(counts) < rank(best))) continue;
+        best = counts;
+        idle = -1;
     }
     return best;
 }
