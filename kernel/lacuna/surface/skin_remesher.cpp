@@ -23,9 +23,6 @@ namespace {
 /// collapsed (@cite botsch_2004_remeshing). With these values, both halves of a split side are nearer to the
 /// size than the whole side was.
 constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
-/// Number of rounds of splitting, collapsing, flipping and smoothing. On the bodies of the tests, the
-/// smallest angle did not change after the fifth round.
-constexpr int kRounds = 6;
 /// Tangent of 15°: the smallest angle that a collapse or a move may create. Later flips and moves
 /// approximately double such small angles.
 constexpr double kPoorAngle = 0.27;
@@ -122,8 +119,9 @@ double SkinRemesher::most_sides() const
     return static_cast<double>(mesh_.sides.size()) + 3 * kMostOfEstimate * estimate;
 }
 
-void SkinRemesher::split_long(double most)
+bool SkinRemesher::split_long(double most)
 {
+    bool any = false;
     std::priority_queue<std::pair<double, Index>> queue;
     const auto add = [&](Index s) {
         s = std::min(s, mesh_.twin(s));
@@ -144,11 +142,13 @@ void SkinRemesher::split_long(double most)
         }
         const Index node = try_split(s);
         if (node < 0) continue;
+        any = true;
         std::vector<Index> open;
         mesh_.each_out(node, [&](Index x) { open.push_back(LinkedTriangles::next(x)); });
         for (const Index x : flip_from(std::move(open))) add(x);
         mesh_.each_out(node, add);
     }
+    return any;
 }
 
 // --- collapsing -----------------------------------------------------------------------------------------
@@ -174,8 +174,9 @@ bool SkinRemesher::try_collapse(Index s, double least)
     return true;
 }
 
-void SkinRemesher::collapse_short()
+bool SkinRemesher::collapse_short()
 {
+    bool any = false;
     std::vector<std::pair<double, Index>> shorts;
     for (std::size_t i = 0; i < mesh_.sides.size(); ++i) {
         const auto s = static_cast<Index>(i);
@@ -186,8 +187,9 @@ void SkinRemesher::collapse_short()
     for (const auto& [before, s] : shorts) {
         check_cancelled(context_);
         if (!mesh_.lives(s) || ratio(s) >= kShort) continue;
-        if (!try_collapse(s, kPoorAngle)) try_collapse(mesh_.twin(s), kPoorAngle);
+        any = try_collapse(s, kPoorAngle) || try_collapse(mesh_.twin(s), kPoorAngle) || any;
     }
+    return any;
 }
 
 // --- flipping -------------------------------------------------------------------------------------------
@@ -368,7 +370,7 @@ void SkinRemesher::improve(bool moves)
     // Triangles with an angle below 30°, half of an equilateral triangle's, are improved one by one.
     const double good = std::numbers::inv_sqrt3;
     flip_all();
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kMostSteps; ++round) {
         std::vector<std::pair<double, Index>> poor;
         for (std::size_t i = 0; i < mesh_.sides.size(); i += 3) {
             const auto s = static_cast<Index>(i);
@@ -392,12 +394,12 @@ void SkinRemesher::run(const topology::Model& model)
     // Compute the limit before the first round: where facets fold, each round adds triangles and area, so a
     // limit computed later would be too large.
     const double most = most_sides();
-    for (int round = 0; round < kRounds; ++round) {
-        split_long(most);
-        collapse_short();
+    for (int round = 0; round < kMostSteps; ++round) {
+        const bool split = split_long(most), collapsed = collapse_short();
         flip_all();
         smooth(kPoorAngle);
         flip_all();
+        if (!split && !collapsed) break;
     }
     improve(true);
     make_exact(model);

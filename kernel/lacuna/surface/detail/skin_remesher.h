@@ -31,9 +31,10 @@ private:
     /// @throw NotSweepable "surface.skin_count"  the sizes require too many triangles.
     [[nodiscard]] double most_sides() const;
     /// @param most  splitting stops at this number of sides.
-    void split_long(double most);
+    /// @return      whether a side was split
+    bool split_long(double most);
     Index try_split(Index s);
-    void collapse_short();
+    bool collapse_short(); ///< @return whether a side was collapsed
     bool try_collapse(Index s, double least);
     [[nodiscard]] bool is_better_flipped(Index s) const;
     void flip_all();
