@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/sparse_factor.h>
 #include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/surface/detail/section_line.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/surface/shared/walls.h>
@@ -23,20 +24,10 @@ using namespace topology;
 
 namespace {
 
-/// Allowed range of a side's length, relative to its original length. It is narrower than the accepted range
-/// of sizes, 0.6 to 1.6.
-constexpr double kShortest = 0.75, kLongest = 1.35;
 /// Factor on the weight of evenness of the first and the last side of an edge. Heuristic, measured on flat
 /// rings: with a factor of 1, a third of the rows along shared edges are too low; with a factor of 4, the
 /// mean scaled Jacobian drops by 0.01.
 constexpr double kEnds = 2;
-/// Nodes move only if the largest cosine decreases by at least this, which is 3°. Heuristic.
-constexpr double kWorthIt = 0.05;
-/// The lines between two opposite sides of a grid count as straight if the other two sides are nearly
-/// straight: at both ends, the direction of such a side deviates from its chord by at most this share of the
-/// chord. In the sections above the source, only straight lines between rims are made square, because there
-/// the walls define the ends of the lines but not their directions. Heuristic.
-constexpr double kStraight = 0.1;
 using Line = SectionLine;
 
 /// A cosine, and its derivatives with respect to the positions of both ends of a line.
@@ -81,7 +72,7 @@ public:
         for (const auto& [set, part] : parts) {
             const auto& [lines, rungs] = part;
             check_cancelled(context_);
-            if (worst_cosine(rungs, 1) < kWorthIt) continue;
+            if (worst_cosine(rungs, 1) < kParallel) continue;
             const bool swept = std::ranges::any_of(rungs, [&](std::size_t r) { return rungs_[r].on_rims; });
             if (swept && !std::exchange(above, true) && !add_sections()) return;
             settle(lines, rungs);
@@ -200,7 +191,7 @@ private:
             const Vec3 whole = now(kSource, own[n - 1]) - now(kSource, own[0]);
             bend[k][0] = sides * (now(kSource, own[1]) - now(kSource, own[0])) - whole;
             bend[k][1] = sides * (now(kSource, own[n - 1]) - now(kSource, own[n - 2])) - whole;
-            for (const Vec3& b : bend[k]) straight = straight && b.norm() <= kStraight * whole.norm();
+            for (const Vec3& b : bend[k]) straight = straight && b.norm() <= kParallel * whole.norm();
         }
         for (std::size_t i = 1; i + 1 < from.size(); ++i) {
             const double share = static_cast<double>(i) / static_cast<double>(from.size() - 1);
@@ -281,7 +272,7 @@ private:
             for (std::size_t section = 1; section < kSections; ++section) {
                 const std::array<Cosine, 2> own = cosines(rungs_[r], section);
                 for (std::size_t side = 0; side < 2; ++side) {
-                    if (std::abs(own[side].value - below[side].value) > kWorthIt) return true;
+                    if (std::abs(own[side].value - below[side].value) > kParallel) return true;
                 }
             }
             return false;
@@ -407,8 +398,10 @@ private:
         bool even = true;
         for (const std::size_t l : lines) {
             for (const std::vector<double>* u : {&lines_[l].at, &lines_[l].above}) {
-                for (std::size_t i = 0; i + 1 < u->size(); ++i)
-                    even = even && (*u)[i + 1] - (*u)[i] >= kShortest && (*u)[i + 1] - (*u)[i] <= kLongest;
+                for (std::size_t i = 0; i + 1 < u->size(); ++i) {
+                    const double side = (*u)[i + 1] - (*u)[i]; // 1 if even
+                    even = even && side >= quads::kShortestOfSize && side <= quads::kLongestOfSize;
+                }
             }
         }
         return even;
@@ -426,7 +419,7 @@ private:
         if (variables == 0) return;
         const double before = worst_cosine(rungs, kSections);
         const bool squarer = square(lines, rungs, variables) &&
-                             worst_cosine(rungs, kSections) < before - kWorthIt;
+                             worst_cosine(rungs, kSections) < before - kParallel;
         if (!squarer) {
             for (const std::size_t l : lines) lines_[l].at = lines_[l].even();
         }
@@ -451,7 +444,7 @@ private:
             line.steep = line.steepness();
         }
         const bool even = square(lines, rungs, 2 * variables);
-        if (even && worst_cosine(lines, rungs) < before - kWorthIt) return true;
+        if (even && worst_cosine(lines, rungs) < before - kParallel) return true;
         for (std::size_t i = 0; i < lines.size(); ++i) {
             lines_[lines[i]].at = alike[i];
             lines_[lines[i]].above.clear();
@@ -490,7 +483,8 @@ private:
             const auto limit = [&](const std::vector<double>& from, const std::vector<double>& to) {
                 for (std::size_t k = 0; k + 1 < from.size(); ++k) {
                     const double side = from[k + 1] - from[k], more = to[k + 1] - to[k] - side;
-                    const double room = more > 0 ? kLongest - side : kShortest - side;
+                    const double room = more > 0 ? quads::kLongestOfSize - side
+                                                 : quads::kShortestOfSize - side;
                     if (more != 0) share = std::min(share, room / more);
                 }
             };
