@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 
@@ -26,10 +27,6 @@ constexpr double kShare = 1.0 / 3;
 /// On a warped quad, a pyramid is valid only above a least height. The first height is at least this multiple
 /// of the least height. With a multiple of 2, pyramids crossed other faces.
 constexpr double kAboveLeast = 1.5;
-/// Limit on the number of times that a pyramid is lowered. Each time, the part of its height above the least
-/// height is halved. After five times, this part is a 32nd of its first value; a flatter pyramid would be of
-/// no use.
-constexpr int kLowerings = 5;
 
 struct Pyramid {
     Vec3 centre, up;   ///< `centre` of the quad; `up`: unit normal of the quad, into the volume
@@ -222,10 +219,11 @@ PyramidLayer place_pyramids(const ClosedSkin& skin, const std::vector<SkinSide>&
         const auto first = std::find(crossing.begin() + static_cast<std::ptrdiff_t>(triangles),
                                      crossing.end(), true);
         if (first == crossing.end()) return made;
-        if (lowering == kLowerings)
+        if (lowering == kMostSteps)
             refuse_crossing(pyramids[static_cast<std::size_t>(first - crossing.begin()) - triangles].centre);
         for (std::size_t quad = 0; quad < pyramids.size(); ++quad) {
             Pyramid& p = pyramids[quad];
+            // The part above the least height is halved.
             if (crossing[triangles + quad]) p.height = (p.height + p.least) / 2;
         }
     }
