@@ -4,7 +4,6 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/pave_gaps.h>
-#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +15,11 @@ namespace lacuna::quads {
 namespace {
 
 using namespace paving;
+
+/// Largest accepted difference between the height of the node at a row's end and the row's height, as a share
+/// of the row's height. The two differ slightly even for a well-placed node, because nodes are spaced along
+/// curves, but heights are measured perpendicular to the side.
+constexpr double kOffHeight = 0.05;
 
 /// A loop to which rows are being added.
 struct Front {
@@ -225,7 +229,7 @@ private:
                 return refuse(RowsFinding::Why::off_height, corner, table, heights[r], 0);
             const Index node = front.nodes[(place + (last ? r + 1 : n - r - 1)) % n];
             const Vec2 off = partial_.at(node) - at;
-            if (std::abs(off.dot(normal) - height) > kRowOffHeight * height)
+            if (std::abs(off.dot(normal) - height) > kOffHeight * height)
                 return refuse(RowsFinding::Why::off_height, corner, table, heights[r],
                               off.dot(normal) / scale);
             end.nodes.push_back(node);
@@ -245,11 +249,17 @@ private:
     }
 
     /// The share of an end's offset (`lean`) that applies to a node at a distance from this end. Within the
-    /// block it is 1. Beyond the block it decreases to 0 at the block of the other end.
+    /// block it is 1. Beyond the block it decreases so slowly that the nodes keep their order.
     static double share_of(const RunEnd& end, double distance, double length)
     {
+        // The share decreases to 0 over this multiple of the largest offset. Above 1, nodes keep their order;
+        // the value was not measured.
+        constexpr double kSlowly = 3;
+        const double most = std::ranges::max(end.lean |
+                                             std::views::transform([](double x) { return std::abs(x); }));
         if (distance <= end.block) return 1;
-        const double reach = length - 2 * end.block;
+        const double over = std::max(length - 2 * end.block, 0.0);
+        const double reach = std::min(kSlowly * most, over);
         return reach > 0 ? std::max(0.0, 1 - (distance - end.block) / reach) : 0;
     }
 
