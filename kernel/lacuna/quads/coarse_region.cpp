@@ -158,7 +158,7 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides
     std::vector<std::vector<std::size_t>> corners;
     std::size_t odd = 0;
     for (const auto& loop : region.loops) odd += odd_runs(corners.emplace_back(runs_of(region, loop)));
-    if (odd % 2 != 0) return std::nullopt;
+    if (odd % 2 != 0 || odd > kMostOddRuns) return std::nullopt;
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         const std::vector<Index>& loop = region.loops[l];
         made.region.loops.emplace_back();

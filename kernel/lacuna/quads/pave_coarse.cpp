@@ -21,8 +21,8 @@ namespace {
 constexpr double kManyStill = 8000;
 
 /// The sides to divide so that every run from corner to corner, and every loop without corners, has an even
-/// number of sides: the longest side of each odd run.
-std::vector<RegionSide> sides_to_divide(const PlanarRegion& region)
+/// number of sides. The longest side of each odd run is taken. Empty if there are too many odd runs.
+std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& region)
 {
     std::vector<RegionSide> sides;
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
@@ -38,6 +38,7 @@ std::vector<RegionSide> sides_to_divide(const PlanarRegion& region)
             for (std::size_t i = from; i < to; ++i)
                 if (length(i) > length(longest)) longest = i;
             sides.push_back({l, longest % loop.size()});
+            if (sides.size() > kMostOddRuns) return std::nullopt;
         }
     }
     return sides;
@@ -69,6 +70,7 @@ PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunC
 /// and its cells are cut in four.
 PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
+    const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
     const auto in_four = [&](const PlanarRegion& divided, const RunContext& its_context) {
         std::optional<Paved> made = pave_in_four(divided, sizes_with_boundary(divided).ring, its_context);
         if (!made) throw NotSweepable("surface.pave", "internal error: the coarser region has no quads");
@@ -86,8 +88,8 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
         }
         return std::nullopt;
     };
-    if (quads_within(region) >= kManyStill) {
-        if (auto mesh = divided(sides_to_divide(region), in_four)) return std::move(*mesh);
+    if (sides) {
+        if (auto mesh = divided(*sides, in_four)) return std::move(*mesh);
     }
     const auto once = [&](const PlanarRegion& even, const RunContext& its_context) {
         return pave_once(even, report, its_context);

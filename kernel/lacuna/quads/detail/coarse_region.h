@@ -9,6 +9,11 @@
 
 namespace lacuna::quads::paving {
 
+/// Maximum number of runs with an odd number of sides. From each of these runs a row of double width leads to
+/// another one, or a triangle with a few irregular nodes ends it. With a larger limit, more regions can be
+/// coarsened, but more rows are distorted.
+inline constexpr std::size_t kMostOddRuns = 8;
+
 /// Whether a loop turns so sharply at position `place` that the node there must stay in a coarse region.
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place);
 
