@@ -51,9 +51,10 @@ struct HarmonicProblem {
     /// range of the fixed values.
     bool least_energy = false;
 
-    /// Whether nine correct digits suffice. If so, an affine function of position that has the fixed values
-    /// is returned without solving a system, if at every free point it equals the weighted mean of its values
-    /// at the neighbours.
+    /// Whether nine correct digits suffice. If so:
+    /// 1. An affine function of position that has the fixed values is returned without solving a system, if
+    ///    at every free point it equals the weighted mean of its values at the neighbours.
+    /// 2. Otherwise, multigrid is used from 2,000 free points on, in a third of the time of a factorisation.
     bool nine_digits = false;
 };
 
