@@ -1,0 +1,46 @@
+-- SPDX-License-Identifier: MIT
+-- Round holes that wind around each other: walls without vertices do not tell how their loops rotate, and if
+-- each rotated on its own, cells between them would fold.
+-- usage: lacuna twisted.lua
+local lacuna = require "lacuna"
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+
+local height, levels, twist = 3, 16, math.rad(120)
+
+--- A wall round (x, y) that turns about the z axis on its way up. @param hole  seen from inside
+local function add_wall(model, name, x, y, radius, facets, hole)
+  local points, cells = {}, {}
+  for j = 0, levels do
+    local c, s = math.cos(twist * j / levels), math.sin(twist * j / levels)
+    for i = 0, facets - 1 do
+      local a = 2 * math.pi * i / facets
+      local px, py = x + radius(a) * math.cos(a), y + radius(a) * math.sin(a)
+      points[#points + 1] = { c * px - s * py, s * px + c * py, height * j / levels }
+    end
+  end
+  for j = 0, levels - 1 do
+    for i = 0, facets - 1 do
+      local a, b = j * facets + i + 1, j * facets + (i + 1) % facets + 1
+      local c, d = b + facets, a + facets
+      cells[#cells + 1] = hole and { a, c, b } or { a, b, c }
+      cells[#cells + 1] = hole and { a, d, c } or { a, c, d }
+    end
+  end
+  model:add_face { name = name, points = points, cells = cells }
+end
+
+for _, case in ipairs { { lobes = 0, holes = 2 }, { lobes = 0, holes = 3 }, { lobes = 4, holes = 3 } } do
+  local model, walls = lacuna.model(), { "outer" }
+  local function outer(a) return case.lobes == 0 and 1 or 1 + 0.15 * math.cos(case.lobes * a) end
+  add_wall(model, "outer", 0, 0, outer, 48)
+  for h = 1, case.holes do
+    local at = 2 * math.pi * h / case.holes
+    walls[h + 1] = "hole_" .. h
+    add_wall(model, walls[h + 1], 0.5 * math.cos(at), 0.5 * math.sin(at), function() return 0.2 end, 16, true)
+  end
+  local quality = model:open_volume { walls = walls }:sweep { size = 0.25, layers = 12 }:quality()
+  check.that(quality.certified and quality.min_scaled_jacobian > 0.4,
+      ("%d lobes, %d holes: %s"):format(case.lobes, case.holes, quality.min_scaled_jacobian))
+end
+
+check.done()
