@@ -87,8 +87,9 @@ void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& r
             if (!wanted[l]) rows[l] = 0;
         }
     }
-    const bool is_one_patch = fill_core(partial, loops, context);
-    attempt.report.used = is_one_patch && laid == 0 ? "mapped" : "paved";
+    const std::optional<bool> is_one_patch = fill_core(partial, loops, context);
+    if (!is_one_patch) return; // another attempt fills the region, at last the one of triangles
+    attempt.report.used = *is_one_patch && laid == 0 ? "mapped" : "paved";
     attempt.mesh = {partial.points, partial.quads};
     drop_loose_points(attempt.mesh, partial.fixed);
 }
@@ -116,12 +117,11 @@ Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWe
     if (style == RowStyle::triangles) {
         attempt.mesh = quads_of_triangles(region);
         attempt.report.used = "triangles";
-        if (attempt.mesh.quads.empty()) return attempt;
     } else {
         PartialMesh partial{region.points, {}, region.points.size(), setting.size, setting.flat, {}, weights};
         pave_and_fill(attempt, partial, region, style, context);
     }
-    if (!is_conforming(attempt.mesh)) return attempt;
+    if (attempt.mesh.quads.empty() || !is_conforming(attempt.mesh)) return attempt;
     if (style != RowStyle::triangles) open_corners(attempt.mesh, region);
     judge(attempt);
     return attempt;

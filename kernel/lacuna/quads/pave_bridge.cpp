@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_bridge.h>
 
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/quads/detail/loop_sides.h>
 #include <lacuna/quads/detail/patch_template.h>
@@ -33,15 +32,11 @@ public:
         }
     }
 
-    Cycle run()
+    std::optional<Cycle> run()
     {
         add_pairs();
         for (std::size_t left = loops_.size(); left > 1;) {
-            if (waiting_.empty()) {
-                lay_blindly();
-                --left;
-                continue;
-            }
+            if (waiting_.empty()) return std::nullopt;
             const Bridge next = waiting_.top();
             waiting_.pop();
             if (joined_.find(next.a) == joined_.find(next.b)) continue;
@@ -201,30 +196,6 @@ private:
         return true;
     }
 
-    /// Place the shortest line between the first loop and another loop, even if the line crosses sides.
-    void lay_blindly()
-    {
-        std::size_t to = 0;
-        Cut best;
-        double least = kInfinity;
-        const Cycle& first = cycles_.front();
-        for (std::size_t b = 1; b < cycles_.size(); ++b) {
-            for (std::size_t i = 0; i < first.size(); i += stride_of(first.size())) {
-                for (std::size_t j = 0; j < cycles_[b].size(); j += stride_of(cycles_[b].size())) {
-                    const Vec2 &p = partial_.at(first[i]), &q = partial_.at(cycles_[b][j]);
-                    const double length = (q - p).norm();
-                    if (length >= least) continue;
-                    least = length;
-                    to = b;
-                    best = {i, j,
-                            static_cast<std::size_t>(
-                                std::max(2L, std::lround(length / local_size(partial_, p, q))))};
-                }
-            }
-        }
-        join_cycles(0, to, best);
-    }
-
     void join_cycles(std::size_t a, std::size_t b, Cut cut)
     {
         a = joined_.find(a), b = joined_.find(b);
@@ -266,7 +237,7 @@ private:
 
 } // namespace
 
-Cycle join_loops(PartialMesh& partial, const std::vector<Cycle>& loops)
+std::optional<Cycle> join_loops(PartialMesh& partial, const std::vector<Cycle>& loops)
 {
     return LoopJoiner(partial, loops).run();
 }

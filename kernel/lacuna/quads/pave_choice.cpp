@@ -239,7 +239,7 @@ Attempt AttemptChooser::begin(RowStyle style, const CutWeights& weights) const
 void AttemptChooser::complete(Attempt& attempt) const
 {
     finish_attempt(attempt, setting_, !is_few_, context_);
-    if (attempt.worst > setting_.flat) return;
+    if (attempt.worst > setting_.flat || attempt.mesh.quads.empty()) return;
     log_line(context_, "quads fold near " + position_text(attempt.where) + ": paving differently");
 }
 

@@ -7,11 +7,14 @@
 #include <lacuna/quads/detail/pave_patch.h>
 
 namespace lacuna::quads::paving {
-bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, const RunContext& context)
+std::optional<bool> fill_core(PartialMesh& partial, const std::vector<Cycle>& loops,
+                              const RunContext& context)
 {
     bool is_one_patch = false;
     for_sides_of(loops, [&](Index a, Index b) { partial.link(a, b); });
-    std::vector<Cycle> parts{join_loops(partial, loops)};
+    std::optional<Cycle> joined = join_loops(partial, loops);
+    if (!joined) return std::nullopt;
+    std::vector<Cycle> parts{std::move(*joined)};
     for (bool is_whole = true; !parts.empty(); is_whole = false) {
         check_cancelled(context);
         const Cycle cycle = std::move(parts.back());
@@ -29,7 +32,7 @@ bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, const RunC
             is_one_patch = is_whole;
             continue;
         }
-        if (!cut) cut = blind_cut(partial, cycle);
+        if (!cut) return std::nullopt;
         const Cycle line = nodes_along(partial, cycle[cut->from], cycle[cut->to], cut->edges);
         if (cut->edges == 1) partial.link(line.front(), line.back());
         auto [one, two] = divide(cycle, *cut, line);

@@ -294,22 +294,6 @@ std::optional<Cut> best_cut(const PartialMesh& partial, const Cycle& cycle, cons
     return CutFinder(partial, cycle, angles).find();
 }
 
-Cut blind_cut(const PartialMesh& partial, const Cycle& cycle)
-{
-    const std::size_t n = cycle.size();
-    Cut best;
-    double best_quality = -3;
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t j = (i + 3) % n;
-        const double quality = least_sine(partial,
-                                          {cycle[i], cycle[(i + 1) % n], cycle[(i + 2) % n], cycle[j]});
-        if (quality <= best_quality || cycle[i] == cycle[j] || partial.linked(cycle[i], cycle[j])) continue;
-        best_quality = quality;
-        best = {std::min(i, j), std::max(i, j), 1};
-    }
-    return best;
-}
-
 Cycle nodes_along(PartialMesh& partial, Index from, Index to, std::size_t edges)
 {
     Cycle line{from};

@@ -31,10 +31,6 @@ double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b);
 std::optional<Cut> best_cut(const PartialMesh& partial, const Cycle& cycle,
                             const std::vector<double>& angles);
 
-/// Cut one quad off a loop, at the place where this quad has the best shape. Used for loops in which
-/// `best_cut()` finds no line. Both parts have even numbers of nodes and are smaller than the loop.
-Cut blind_cut(const PartialMesh& partial, const Cycle& cycle);
-
 /// Add nodes along a line, spaced according to the size at its ends. @return  all nodes of the line,
 /// including both ends.
 Cycle nodes_along(PartialMesh& partial, Index from, Index to, std::size_t edges);
