@@ -5,7 +5,6 @@
 #include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
-#include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/detail/no_roles.h>
 #include <lacuna/closure/detail/round_walls.h>
@@ -23,7 +22,6 @@
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -194,7 +192,7 @@ public:
     Closed seal(const matching::Match& match)
     {
         std::optional<NotClosed> first;
-        for (const Way& way : wanted(match)) {
+        for (const Way& way : wanted()) {
             try {
                 Closed closed = seal_as(way, match);
                 add_ambiguity_notes(way, match, closed);
@@ -222,7 +220,7 @@ private:
     ///   (`Follower::leads_astray()`), otherwise `straight`;
     /// - between two ends without such walls: `smooth` if the angle between the ends exceeds `kBend`, or if
     ///   it exceeds `kLean` and all rims are circles, as at an elbow; otherwise `straight`.
-    std::vector<Way> wanted(const matching::Match& match) const
+    std::vector<Way> wanted() const
     {
         if (value_ == VolumeClass::IV) {
             if (options_.cap == Cap::automatic)
@@ -351,7 +349,7 @@ private:
         // match() throws if walls or given pairs determine the direction.
         const auto other = unless_refused([&] { return matching::match(volume_, turned, context_); });
         if (!other) return otherwise();
-        for (const Way& way : wanted(*other)) {
+        for (const Way& way : wanted()) {
             if (volume_sealed_as(way, *other))
                 return failed.remedy(
                     "match{{ flip = {{ {} }} }} seals it",

@@ -83,7 +83,7 @@ void FaceShape::append(const FaceShape& other)
 
 FaceShape face_shape(const Model& model, FaceId face, const SizeField& size)
 {
-    FineFacets fine = fine_facets(model, face, size, {.bulges = true});
+    FineFacets fine = fine_facets(model, face, size, true);
     FaceShape shape{std::move(fine.points), std::move(fine.triangles), std::move(fine.bulge)};
     if (fine.surface == nullptr) shape.slack = sag_of_edges(model, face);
     return shape;

@@ -95,10 +95,6 @@ public:
           fine_(fine_facets(model, face, size)),
           flat_(laid_flat(model, face, fine_))
     {
-        if (flat_.folded) { // retry with the original facets, which are fewer and fold less
-            fine_ = fine_facets(model, face, size, {.rounds = 0});
-            flat_ = laid_flat(model, face, fine_);
-        }
         if (flat_.folded) throw NotSweepable(not_flat(model, face, "fold"));
         locator_ = geometry::PlanarLocator(flat_);
         measure_stretch();

@@ -258,16 +258,13 @@ private:
 
 } // namespace
 
-FineFacets fine_facets(const Model& model, FaceId face, const SizeField& size,
-                       const FineFacetOptions& options)
+FineFacets fine_facets(const Model& model, FaceId face, const SizeField& size, bool bulges)
 {
     FineFacets fine = copy_of(model, face);
     if (fine.surface == nullptr) return fine;
-    Halving halving(model, fine, size, options.off);
-    for (int i = 0; i < options.rounds && static_cast<double>(fine.triangles.size()) < options.most; ++i) {
-        if (!halving.round()) break;
-    }
-    if (options.bulges) fine.bulge = halving.bulges();
+    Halving halving(model, fine, size, 0.05);
+    for (int i = 0; i < 8 && fine.triangles.size() < 100'000 && halving.round(); ++i) {}
+    if (bulges) fine.bulge = halving.bulges();
     return fine;
 }
 

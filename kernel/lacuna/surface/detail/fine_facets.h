@@ -25,18 +25,8 @@ struct FineFacets {
         Index point = -1; ///< index in `points`
     };
     std::map<EdgeId, std::vector<OnEdge>> edges; ///< points of each edge from its start to its end
-    /// For each side of each facet, the vector from its midpoint to the exact face. Only with
-    /// `FineFacetOptions::bulges`.
+    /// For each side of each facet, the vector from its midpoint to the exact face. Empty if not asked for.
     std::vector<std::array<Vec3, 3>> bulge;
-};
-
-/// Options of `fine_facets()`.
-struct FineFacetOptions {
-    /// Maximum distance of a side's midpoint from the face, relative to the size there, > 0 [-]
-    double off = 0.05;
-    int rounds = 8;      ///< rounds of bisection, >= 0
-    double most = 1e5;   ///< refinement stops at this number of facets
-    bool bulges = false; ///< compute the bulges of the final facets
 };
 
 /// The facets of a face, refined where they deviate too far from the exact face for quads of the given size.
@@ -45,8 +35,9 @@ struct FineFacetOptions {
 ///
 /// Sides are bisected; the new midpoints lie on the exact edges and the exact surface. A facet with one
 /// bisected side is split in two. If two sides of a facet are bisected, the third is bisected as well, and
-/// the facet is split in four. A face without exact geometry is not refined.
-FineFacets fine_facets(const topology::Model& model, FaceId face, const SizeField& size,
-                       const FineFacetOptions& options = {});
+/// the facet is split in four. Bisection ends when no midpoint is further from the face than 5 % of the size
+/// there, after eight rounds, or at 100,000 facets. A face without exact geometry is not refined.
+/// @param bulges  compute `FineFacets::bulge`
+FineFacets fine_facets(const topology::Model& model, FaceId face, const SizeField& size, bool bulges = false);
 
 } // namespace lacuna::surface
