@@ -4,7 +4,6 @@
 #include "bindings/options.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 namespace lacuna::lua {

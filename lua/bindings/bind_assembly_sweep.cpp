@@ -7,7 +7,6 @@
 #include "bindings/sweep_to.h"
 
 #include <algorithm>
-#include <string>
 #include <string_view>
 #include <vector>
 

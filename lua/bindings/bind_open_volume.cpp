@@ -4,13 +4,10 @@
 #include "bindings/faces.h"
 #include "bindings/recipe_function.h"
 
-#include <lacuna/core/error.h>
 #include <lacuna/fill/describe.h>
 
 #include <cctype>
-#include <cmath>
 #include <cstring>
-#include <initializer_list>
 #include <utility>
 
 namespace lacuna::lua {

@@ -8,8 +8,6 @@
 
 #include <lacuna/core/shared/progress.h>
 
-#include <algorithm>
-
 namespace lacuna::lua {
 
 using mesh::CellShape;

@@ -13,8 +13,6 @@
 #include <lacuna/view/page.h>
 #include <lacuna/view/picture.h>
 
-#include <algorithm>
-
 namespace lacuna::lua {
 
 namespace {

@@ -11,9 +11,7 @@
 #include <cstring>
 #include <functional>
 #include <iterator>
-#include <numbers>
 #include <optional>
-#include <string_view>
 
 namespace lacuna::lua {
 

@@ -7,8 +7,6 @@
 #include "bindings/box.h"
 #include "host/sandbox.h"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <clocale>
 #include <cstdlib>

@@ -2,7 +2,6 @@
 #include <lacuna/closure/shared/along.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/segment.h>

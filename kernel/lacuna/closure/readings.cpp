@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <string>
 
 namespace lacuna::closure {
 

@@ -13,7 +13,6 @@
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/harmonic.h>
-#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>

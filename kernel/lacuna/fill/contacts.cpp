@@ -4,7 +4,6 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
-#include <lacuna/io/shared/units.h>
 
 #include <algorithm>
 #include <map>

@@ -6,7 +6,6 @@
 #include <lacuna/io/shared/deck_facets.h>
 #include <lacuna/sweep/shared/shell_quads.h>
 
-#include <algorithm>
 #include <map>
 #include <numeric>
 

@@ -3,7 +3,6 @@
 
 #include <lacuna/core/shared/criteria.h>
 
-#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <utility>

@@ -4,7 +4,6 @@
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/types.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace lacuna::geometry {

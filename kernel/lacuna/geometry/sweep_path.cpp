@@ -9,7 +9,6 @@
 #include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 namespace lacuna::geometry {

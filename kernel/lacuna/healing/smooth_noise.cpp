@@ -4,7 +4,6 @@
 #include <lacuna/core/shared/incidence.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace lacuna::healing {

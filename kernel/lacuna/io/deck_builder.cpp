@@ -9,7 +9,6 @@
 #include <lacuna/mesh/tet_mesh.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace lacuna::io {

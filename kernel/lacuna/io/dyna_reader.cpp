@@ -11,7 +11,6 @@
 #include <lacuna/io/detail/join_sets.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 #include <unordered_map>

@@ -12,7 +12,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <set>
 
 namespace lacuna::io {

@@ -9,7 +9,6 @@
 #include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <map>
 #include <set>

@@ -5,7 +5,6 @@
 #include <lacuna/core/shared/large_pages.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <system_error>
 
 #include <fcntl.h>

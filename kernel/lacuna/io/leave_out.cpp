@@ -13,7 +13,6 @@
 #include <functional>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 namespace lacuna::io {

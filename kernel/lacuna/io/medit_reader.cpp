@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/deck_builder.h>
 
-#include <algorithm>
-#include <limits>
-
 namespace lacuna::io {
 namespace {
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/deck_builder.h>
 
-#include <lacuna/core/error.h>
 #include <lacuna/core/shared/large_pages.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace lacuna::io {

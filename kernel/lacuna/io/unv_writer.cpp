@@ -5,8 +5,6 @@
 #include <lacuna/io/detail/unv.h>
 #include <lacuna/io/shared/units.h>
 
-#include <lacuna/core/error.h>
-
 #include <algorithm>
 #include <charconv>
 

@@ -15,7 +15,6 @@
 #include <lacuna/quads/shared/pattern_counts.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lacuna::quads {

@@ -13,8 +13,6 @@
 #include <lacuna/quads/shared/pattern_counts.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <optional>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/cell_columns.h>
-#include <lacuna/quality/detail/curved_other.h>
 #include <lacuna/quality/detail/worst_list.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/quality/shared/second_order.h>

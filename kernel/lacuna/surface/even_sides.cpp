@@ -3,12 +3,10 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/quads/shared/pattern_counts.h>
-#include <lacuna/surface/detail/sides_asked.h>
 
 #include <algorithm>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace lacuna::surface {

@@ -2,7 +2,6 @@
 #include <lacuna/sweep/assembly.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>

@@ -3,7 +3,6 @@
 
 #include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -18,7 +17,6 @@
 #include <lacuna/topology/shared/split_edge.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>

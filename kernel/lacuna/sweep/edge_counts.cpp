@@ -11,7 +11,6 @@
 #include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/detail/edge_rows.h>
-#include <lacuna/sweep/detail/keep_thickness.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/source_quads.h>

@@ -2,7 +2,6 @@
 #include <lacuna/sweep/detail/keep_thickness.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/surface/shared/projector.h>
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>

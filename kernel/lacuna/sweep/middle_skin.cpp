@@ -5,7 +5,6 @@
 #include <lacuna/surface/shared/projector.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>

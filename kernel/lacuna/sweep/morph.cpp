@@ -3,7 +3,6 @@
 
 #include <lacuna/core/message.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/core/shared/limits.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>

@@ -7,13 +7,11 @@
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/swept_motion.h>
 #include <lacuna/surface/shared/wall_columns.h>
-#include <lacuna/sweep/detail/keep_thickness.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <string>
 
 namespace lacuna::sweep {
 

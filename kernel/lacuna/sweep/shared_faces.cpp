@@ -2,7 +2,6 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>

@@ -12,7 +12,6 @@
 #include <lacuna/surface/shared/quads_asked.h>
 #include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/detail/volume_share.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <cmath>

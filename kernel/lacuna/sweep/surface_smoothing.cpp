@@ -9,7 +9,6 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <utility>

@@ -3,7 +3,6 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/sweep/detail/keep_thickness.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/shared/names_of.h>
 

@@ -5,7 +5,6 @@
 #include <lacuna/view/detail/page_texts.h>
 #include <lacuna/view/detail/palette.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace lacuna::view {
