@@ -29,10 +29,14 @@ namespace {
 /// Below this confidence, the second best alignment is reported too. At this limit, its residual is a third
 /// larger than that of the best one.
 constexpr double kUnsure = 0.25;
-/// Below this confidence, an alignment under which the given meshes match is preferred to the best one. If it
-/// rotates more, the limit is `kUnsure`. At this limit, the residual of the best one is 2.5 times smaller. A
-/// lower value fails for ring sectors whose outer end is eight times as far out as the inner one.
+/// Below this confidence, an alignment under which the given meshes match is preferred to the best one,
+/// unless it rotates more. At this limit, the residual of the best one is 2.5 times smaller. A lower value
+/// fails for ring sectors whose outer end is eight times as far out as the inner one.
 constexpr double kUnsureBesideSides = 0.6;
+/// kTie: the same limit for an alignment that rotates more than the best one. kAsMuch: difference in rotation
+/// that is ignored, as a share of half a turn. Both are small, so that a plain prism is not twisted to match
+/// its target mesh.
+constexpr double kTie = 0.1, kAsMuch = 0.05;
 
 /// Confidence that the best score is right: 1 − best / second best.
 double sureness(double best, double second)
@@ -185,9 +189,8 @@ private:
         if (least == 0) return;
         const Alignment likeliest = found.front();
         for (const Alignment& other : alignments_of(problem_, s, t, true, problem_.backward)) {
-            const bool turns_more = turn_of(other) > turn_of(likeliest) + kAlikeSizes;
-            if (sureness(likeliest.score, other.score) >= (turns_more ? kUnsure : kUnsureBesideSides))
-                continue;
+            const bool turns_more = turn_of(other) > turn_of(likeliest) + kAsMuch;
+            if (sureness(likeliest.score, other.score) >= (turns_more ? kTie : kUnsureBesideSides)) continue;
             const std::size_t unlike = unlike_sides(problem_, s, t, other);
             if (unlike >= least) continue;
             least = unlike;
