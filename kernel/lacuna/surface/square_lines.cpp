@@ -28,6 +28,9 @@ namespace {
 /// rings: with a factor of 1, a third of the rows along shared edges are too low; with a factor of 4, the
 /// mean scaled Jacobian drops by 0.01.
 constexpr double kEnds = 2;
+/// Nodes move only if the largest cosine decreases by at least this, which is 3°. With a lower value, nodes
+/// of an L of two faces move, whose quads are good.
+constexpr double kWorthIt = 0.05;
 using Line = SectionLine;
 
 /// A cosine, and its derivatives with respect to the positions of both ends of a line.
@@ -72,7 +75,7 @@ public:
         for (const auto& [set, part] : parts) {
             const auto& [lines, rungs] = part;
             check_cancelled(context_);
-            if (worst_cosine(rungs, 1) < kParallel) continue;
+            if (worst_cosine(rungs, 1) < kWorthIt) continue;
             const bool swept = std::ranges::any_of(rungs, [&](std::size_t r) { return rungs_[r].on_rims; });
             if (swept && !std::exchange(above, true) && !add_sections()) return;
             settle(lines, rungs);
@@ -272,7 +275,7 @@ private:
             for (std::size_t section = 1; section < kSections; ++section) {
                 const std::array<Cosine, 2> own = cosines(rungs_[r], section);
                 for (std::size_t side = 0; side < 2; ++side) {
-                    if (std::abs(own[side].value - below[side].value) > kParallel) return true;
+                    if (std::abs(own[side].value - below[side].value) > kWorthIt) return true;
                 }
             }
             return false;
@@ -419,7 +422,7 @@ private:
         if (variables == 0) return;
         const double before = worst_cosine(rungs, kSections);
         const bool squarer = square(lines, rungs, variables) &&
-                             worst_cosine(rungs, kSections) < before - kParallel;
+                             worst_cosine(rungs, kSections) < before - kWorthIt;
         if (!squarer) {
             for (const std::size_t l : lines) lines_[l].at = lines_[l].even();
         }
@@ -444,7 +447,7 @@ private:
             line.steep = line.steepness();
         }
         const bool even = square(lines, rungs, 2 * variables);
-        if (even && worst_cosine(lines, rungs) < before - kParallel) return true;
+        if (even && worst_cosine(lines, rungs) < before - kWorthIt) return true;
         for (std::size_t i = 0; i < lines.size(); ++i) {
             lines_[lines[i]].at = alike[i];
             lines_[lines[i]].above.clear();
