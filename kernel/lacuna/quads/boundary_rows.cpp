@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/pave_gaps.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +16,6 @@ namespace lacuna::quads {
 namespace {
 
 using namespace paving;
-
-/// Largest accepted difference between the height of the node at a row's end and the row's height, as a share
-/// of the row's height. The two differ slightly even for a well-placed node, because nodes are spaced along
-/// curves, but heights are measured perpendicular to the side.
-constexpr double kOffHeight = 0.05;
 
 /// A loop to which rows are being added.
 struct Front {
@@ -229,7 +225,7 @@ private:
                 return refuse(RowsFinding::Why::off_height, corner, table, heights[r], 0);
             const Index node = front.nodes[(place + (last ? r + 1 : n - r - 1)) % n];
             const Vec2 off = partial_.at(node) - at;
-            if (std::abs(off.dot(normal) - height) > kOffHeight * height)
+            if (std::abs(off.dot(normal) - height) > kRowOffHeight * height)
                 return refuse(RowsFinding::Why::off_height, corner, table, heights[r],
                               off.dot(normal) / scale);
             end.nodes.push_back(node);
