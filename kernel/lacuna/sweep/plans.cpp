@@ -85,11 +85,6 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
     return plans;
 }
 
-/// Factor on the sides per full turn when the plans are repeated at order 2. A quad with two sides on a round
-/// rim has an angle of nearly 180° between these sides. With shorter sides on the rim, the quads are laid out
-/// differently there. Not measured.
-constexpr int kMoreSides = 2;
-
 } // namespace
 
 std::vector<Plan> plans(const OpenVolume& volume, const SweepOptions& asked, KnownLinks& links,
@@ -100,14 +95,10 @@ std::vector<Plan> plans(const OpenVolume& volume, const SweepOptions& asked, Kno
     for (const bool wedges : {false, true}) {
         if (wedges ? !asked.wedges && asked.fallback != Fallback::wedges : asked.wedges) continue;
         options.wedges = wedges;
-        const std::vector<Plan> ways = layouts(volume, options, links, context);
-        for (const int sides : {options.curvature, kMoreSides * options.curvature}) {
-            for (Plan plan : ways) {
-                plan.per_turn = sides;
-                plan.wedges = wedges;
-                all.push_back(std::move(plan));
-            }
-            if (options.order == 1 || options.volume_share == 0 || options.curvature == 0) break;
+        for (Plan plan : layouts(volume, options, links, context)) {
+            plan.per_turn = options.curvature;
+            plan.wedges = wedges;
+            all.push_back(std::move(plan));
         }
     }
     return all;

@@ -34,10 +34,8 @@ struct Plan {
 ///   and the option `rows` is not used.
 ///
 /// The next plans are a common rotation of all loops, if the walls of some loop do not determine its
-/// rotation; the sweep from the other end; and quads laid out between the outlines of both ends. At order 2
-/// the whole list is repeated with twice the sides, unless `curvature` or `volume_share` is 0, because a quad
-/// with two sides on a round rim has an angle of nearly 180° between these sides. Plans with wedges come
-/// last, if the fallback allows them.
+/// rotation; the sweep from the other end; and quads laid out between the outlines of both ends. Plans with
+/// wedges come last, if the fallback allows them.
 /// @param options  checked options, with `curvature` as planned for the volume.
 /// @throw Cancelled
 std::vector<Plan> plans(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
