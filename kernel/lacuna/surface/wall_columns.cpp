@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/wall_columns.h>
 
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/linking_map.h>
@@ -17,6 +16,10 @@ using namespace topology;
 
 namespace {
 
+/// Walls count as straight if their length differs by less than this share from that of straight lines
+/// between the rims. With ten layers, this is half the height of a layer.
+constexpr double kHardlyLonger = 0.05;
+
 /// Whether the walls are straight: their area is close to (mean length of the rims) · (mean length of
 /// straight columns). Walls that bend or bulge have more area, and walls with a waist have less.
 /// @param straight  total length of the straight columns.
@@ -25,7 +28,7 @@ bool are_straight(const Model& model, const LinkingSurface& link, double straigh
     double area = 0;
     for (const FaceId wall : link.walls) area += face_area(model, wall);
     const double length = 2 * area / (link.source.length() + link.target.length());
-    return std::abs(length * static_cast<double>(columns) - straight) < kAlikeSizes * straight;
+    return std::abs(length * static_cast<double>(columns) - straight) < kHardlyLonger * straight;
 }
 
 std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& segment, int steps)
