@@ -30,15 +30,12 @@ using namespace topology;
 
 namespace {
 
-/// Largest number of faces that a remedy lists.
-constexpr std::size_t kMostTyped = 6;
-
-/// A list of faces in recipe syntax; `{ … }` for a long one.
+/// A list of faces in recipe syntax; `{ … }` for one that a message would shorten.
 std::string in_braces(const Model& model, const std::vector<FaceId>& faces)
 {
-    if (faces.size() > kMostTyped) return "{ … }";
-    return formatted("{{ {} }}",
-                     full_list(faces, [&](FaceId face) { return formatted("{}", model[face].tag); }));
+    const auto tag = [&](FaceId face) { return formatted("{}", model[face].tag); };
+    const std::string list = full_list(faces, tag);
+    return list == short_list(faces, tag) ? formatted("{{ {} }}", list) : "{ … }";
 }
 
 /// A cut in recipe syntax. Nine digits are far finer than the tolerance, a millionth of the diagonal.
