@@ -37,9 +37,6 @@ using namespace topology;
 
 namespace {
 
-/// Largest depth of a dip (the line across a mouth in which the cut faces meet, see `add_dip()`), as a share
-/// of the distance to the opposite wall. For equal tubes the dip then reaches the axis.
-constexpr double kDeepest = 0.5;
 /// If a plane along the main body passes an edge inside the main body's end at less than this share of the
 /// widest mouth's width, the plane is moved onto the edge, so that no sliver is left. On a wall, the plane
 /// makes no line within this distance of an edge along the axis. A higher value moves the planes further from
@@ -521,7 +518,7 @@ private:
     }
 
     /// Add the dip: a parabola across the mouth into the main body. Its lowest point lies as deep below the
-    /// mouth as the branch is wide, but at most halfway to the opposite wall.
+    /// mouth as the branch is wide, but at most halfway to the opposite wall: for equal tubes on the axis.
     EdgeId add_dip(Model& model, const Mouth& mouth, const geometry::Plane& plane,
                    std::pair<VertexId, VertexId> ends)
     {
@@ -540,8 +537,7 @@ private:
         const Vec3 start = (a + b) / 2 + (std::min(rim, top) - rim) * outward;
         const double down = geometry::FacetTree(volume_.model.points, facets).first_along(start, -outward).t;
         double lowest = top - radius_of(mouth, way_of_branch(mouth));
-        if (std::isfinite(down))
-            lowest = std::max(lowest, top - kDeepest * (top - start.dot(outward) + down));
+        if (std::isfinite(down)) lowest = std::max(lowest, top - (top - start.dot(outward) + down) / 2);
         const double deep = std::max(0.0, rim - lowest);
         std::vector<Vec3> between;
         for (int i = 1; i < kChords && deep > kChords * model.tolerance; ++i) {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -39,18 +40,19 @@ public:
         if (rims_.size() < 3 || !face.given_quads.empty() || face.keeps_nodes || face.surface) return false;
         if (!std::ranges::all_of(rims_, [&](const std::vector<Index>& rim) { return is_tube_at(rim); }))
             return false;
-        double total = 0;
-        for (const auto& [point, curvature] : curvatures()) total += curvature;
-        return total < -std::numbers::pi * static_cast<double>(rims_.size() - 2);
+        const std::vector<double> curvature = curvatures();
+        return std::reduce(curvature.begin(), curvature.end()) <
+               -std::numbers::pi * static_cast<double>(rims_.size() - 2);
     }
 
     /// @return whether a tube became a face of its own
     bool divide()
     {
         const geometry::HarmonicValues solved = solve();
+        level_.resize(model_.points.size());
         for (std::size_t p = 0; p < solved.points.size(); ++p)
-            level_[solved.points[p]] = solved.values.row(static_cast<Eigen::Index>(p));
-        const std::map<Index, double> curvature = curvatures();
+            level_[index(solved.points[p])] = solved.values.row(static_cast<Eigen::Index>(p));
+        const std::vector<double> curvature = curvatures();
         std::vector<std::optional<double>> ends;
         for (std::size_t k = 0; k < rims_.size(); ++k) ends.push_back(end_of_tube(curvature, k));
         bool any = false;
@@ -97,32 +99,34 @@ private:
 
     [[nodiscard]] double level(Index point, std::size_t rim) const
     {
-        return level_.at(point)[static_cast<Eigen::Index>(rim)];
+        return level_[index(point)][static_cast<Eigen::Index>(rim)];
     }
 
-    /// Gaussian curvature at the inner points of the face: the full angle less the angles of the facets there
-    /// [radian].
-    [[nodiscard]] std::map<Index, double> curvatures() const
+    /// By point: Gaussian curvature at the inner points of the face, the full angle less the angles of the
+    /// facets there [radian]; 0 elsewhere.
+    [[nodiscard]] std::vector<double> curvatures() const
     {
-        std::map<Index, double> curvature;
-        std::set<Index> on_rim;
-        for (const std::vector<Index>& own : rims_) on_rim.insert(own.begin(), own.end());
+        std::vector<double> curvature(model_.points.size(), 0);
+        for (const Triangle& t : model_[face_].triangles)
+            for (const Index p : t) curvature[index(p)] = 2 * std::numbers::pi;
         for (const Triangle& t : model_[face_].triangles)
             for (std::size_t k = 0; k < 3; ++k) {
-                if (on_rim.contains(t[k])) continue;
                 const Vec3& at = model_.at(t[k]);
-                curvature.try_emplace(t[k], 2 * std::numbers::pi).first->second -= geometry::angle_between(
-                    model_.at(t[(k + 1) % 3]) - at, model_.at(t[(k + 2) % 3]) - at);
+                curvature[index(t[k])] -= geometry::angle_between(model_.at(t[(k + 1) % 3]) - at,
+                                                                  model_.at(t[(k + 2) % 3]) - at);
             }
+        for (const std::vector<Index>& rim : rims_)
+            for (const Index p : rim) curvature[index(p)] = 0;
         return curvature;
     }
 
     /// The level at which the tube of a rim ends. Empty if no inner point is below it.
-    [[nodiscard]] std::optional<double> end_of_tube(const std::map<Index, double>& curvature,
+    [[nodiscard]] std::optional<double> end_of_tube(const std::vector<double>& curvature,
                                                     std::size_t rim) const
     {
         std::vector<std::pair<double, double>> order; // level, curvature
-        for (const auto& [p, own] : curvature) order.emplace_back(level(p, rim), own);
+        for (std::size_t p = 0; p < curvature.size(); ++p)
+            if (curvature[p] != 0) order.emplace_back(level(static_cast<Index>(p), rim), curvature[p]);
         std::ranges::sort(order);
         std::optional<double> end;
         double total = 0;
@@ -154,8 +158,7 @@ private:
         Face junction = model_[face_];
         SidePoints sides;
         std::set<std::pair<Index, Index>> done;
-        std::set<Index> made;
-        const std::size_t points = model_.points.size();
+        const auto first = static_cast<Index>(model_.points.size());
         for (const Triangle& t : junction.triangles)
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto [a, b] = std::minmax(t[k], t[(k + 1) % 3]);
@@ -164,10 +167,9 @@ private:
                 const double f = (end - from) / (to - from);
                 const auto p = static_cast<Index>(model_.points.size());
                 model_.points.emplace_back((1 - f) * model_.at(a) + f * model_.at(b));
-                level_[p] = (1 - f) * level_.at(a) + f * level_.at(b);
-                level_[p][static_cast<Eigen::Index>(rim)] = end;
+                level_.emplace_back((1 - f) * level_[index(a)] + f * level_[index(b)]);
+                level_.back()[static_cast<Eigen::Index>(rim)] = end;
                 sides.add(a, b, {p});
-                made.insert(p);
             }
         cut_at_sides(model_.points, junction, sides);
         Face tube = junction;
@@ -176,9 +178,10 @@ private:
         };
         erase_facets(junction, [&](std::size_t t) { return is_below(junction.triangles[t]); });
         erase_facets(tube, [&](std::size_t t) { return !is_below(tube.triangles[t]); });
-        std::vector<Index> line = line_through(made, tube);
-        if (line.size() != made.size() + 1) {
-            model_.points.resize(points);
+        std::vector<Index> line = line_from(first, tube);
+        if (line.size() < 4 || line.size() != model_.points.size() - index(first) + 1) {
+            model_.points.resize(index(first));
+            level_.resize(index(first));
             return false;
         }
         of_others_.insert(of_others_.end(), line.begin(), line.end());
@@ -195,19 +198,18 @@ private:
         return true;
     }
 
-    /// The closed line of a face's sides through the first of some points.
-    static std::vector<Index> line_through(const std::set<Index>& points, const Face& face)
+    /// The closed line of a face's sides through the points from number `first` on.
+    static std::vector<Index> line_from(Index first, const Face& face)
     {
         std::map<Index, Index> next;
         for (const Triangle& t : face.triangles)
             for (std::size_t k = 0; k < 3; ++k)
-                if (points.contains(t[k]) && points.contains(t[(k + 1) % 3])) next[t[k]] = t[(k + 1) % 3];
-        std::vector<Index> line;
-        for (auto at = next.begin(); at != next.end(); at = next.find(line.back())) {
-            if (line.size() > points.size()) break;
-            if (line.empty()) line.push_back(at->first);
+                if (t[k] >= first && t[(k + 1) % 3] >= first) next[t[k]] = t[(k + 1) % 3];
+        std::vector<Index> line{first};
+        for (auto at = next.find(first); at != next.end() && line.size() <= next.size();
+             at = next.find(line.back())) {
             line.push_back(at->second);
-            if (line.back() == line.front()) break;
+            if (line.back() == first) break;
         }
         return line;
     }
@@ -216,8 +218,8 @@ private:
     FaceId face_;
     const RunContext& context_;
     std::vector<std::vector<Index>> rims_;
-    std::map<Index, Eigen::VectorXd> level_; ///< by point of the face: a level for each rim
-    std::vector<Index> of_others_;           ///< points at the ends of the tubes that were cut off
+    std::vector<Eigen::VectorXd> level_; ///< by point: a level for each rim; empty beside the face
+    std::vector<Index> of_others_;       ///< points at the ends of the tubes that were cut off
 };
 
 } // namespace

@@ -3,7 +3,6 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -24,12 +23,15 @@ namespace {
 /// have corners of 120° or more.
 constexpr int kFewestPerTurn = 6;
 
+/// Number of points on each piece at which the size is sampled. With 16, necks are missed.
+constexpr int kSizeSamples = 32;
+
 /// Turns of the target's rim over even steps along a segment [radian].
 std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment& segment)
 {
-    const double whole = target.length(), step = (segment.target_to - segment.target_from) / kFineChords;
+    const double whole = target.length(), step = (segment.target_to - segment.target_from) / kSizeSamples;
     std::vector<double> turning;
-    for (int i = 0; i < kFineChords; ++i) {
+    for (int i = 0; i < kSizeSamples; ++i) {
         double from = segment.target_from + i * step;
         while (from >= whole) from -= whole;
         const double past = std::max(from + step - whole, 0.0);
@@ -132,10 +134,10 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
 {
     const int per_turn = task.sizing.curvature > 0 ? task.sizing.curvature : kFewestPerTurn;
     std::vector<double> at;
-    for (int i = 0; i < kFineChords; ++i)
-        at.push_back(piece.from + (i + 0.5) / kFineChords * (piece.to - piece.from));
+    for (int i = 0; i < kSizeSamples; ++i)
+        at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
     const EdgeTurning turning(task.model, edge);
-    const double step = (piece.to - piece.from) * turning.length() / kFineChords;
+    const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
     // If the target's rim turns more than this rim, only the excess is added. Turns are compared over the
     // whole piece, because on an oblique end the rim turns unevenly, but by the same total.
     const auto turn_between = [&](double from, double to) {
@@ -152,7 +154,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         const double from = piece.from * turning.length() + static_cast<double>(i) * step;
         double turn = turn_between(from, from + step);
         if (more > 0) turn += more * piece.opposite[i];
-        const double size = piece.length / kFineChords / task.size(points[i]);
+        const double size = piece.length / kSizeSamples / task.size(points[i]);
         const double bend = turn * per_turn / kFullTurn;
         const double here = std::max(size, bend);
         by_turn += bend;
