@@ -147,8 +147,8 @@ private:
                 const std::span<const FaceUse> uses = model_.uses_of_edge(edge);
                 if (rim.uses.size() != 1 || uses.size() != 2) continue;
                 const FaceId junction = uses[uses[0].face == tube ? 1 : 0].face;
-                if (volume_.role[junction.index()] != Role::wall || rims(model_, {junction}).size() < 3 ||
-                    std::abs(turns_[edge.index()]) >= kCreaseAngle / 2)
+                if (std::abs(turns_[edge.index()]) >= kCreaseAngle / 2 ||
+                    volume_.role[junction.index()] != Role::wall || rims(model_, {junction}).size() < 3)
                     continue;
                 const bool ends = std::ranges::any_of(
                     both, [&](const Rim& own) { return at_ends.contains(own.uses.front().edge); });

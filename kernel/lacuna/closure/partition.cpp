@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/cut_planes.h>
 #include <lacuna/closure/detail/midpoint.h>
 #include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/turning_heights.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
@@ -17,19 +18,16 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/predicates.h>
-#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
-#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -194,80 +192,6 @@ std::vector<Vec3> axes_of(const OpenVolume& volume, bool both)
     std::vector<Vec3> ways;
     for (const Axis& axis : axes) ways.push_back(axis.way);
     return ways;
-}
-
-/// Heights along an axis at which smooth parts of a skin turn over, from facing along the axis to facing
-/// against it: the middle of a ball, a torus or an egg. Of a part that is parallel to the axis there, such as
-/// a capsule, the height is that of the middle. Parts whose rims pass that height, such as bores across the
-/// axis, do not count.
-std::vector<double> turning_heights(const Model& model, const Vec3& axis)
-{
-    const double smooth = std::cos(kCreaseAngle * kDegree), steep = std::sin(kCreaseAngle * kDegree);
-    struct Beside {
-        FaceId face;
-        Vec3 normal;
-    };
-    struct Turn {
-        double length = 0, moment = 0; ///< of the sides of facets where a part turns over
-        bool ahead = false, behind = false;
-        bool crosses_rim = false; ///< whether an edge between the part and others passes that height
-    };
-    struct Side {
-        FaceId face;
-        double length, height;
-    };
-    std::map<std::pair<Index, Index>, Beside> beside;
-    geometry::UnionFind parts(model.faces.size());
-    std::vector<Turn> turns(model.faces.size());
-    std::vector<Side> sides;
-    for (const FaceId face : all_faces(model))
-        for (const Triangle& t : model[face].triangles) {
-            const Vec3 normal = facet_area_vector(model, t).stableNormalized();
-            const double along = normal.dot(axis);
-            turns[face.index()].ahead |= along > steep;
-            turns[face.index()].behind |= along < -steep;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Index a = t[k], b = t[(k + 1) % 3];
-                const auto [other, is_first] = beside.try_emplace(std::minmax(a, b), Beside{face, normal});
-                if (is_first || other->second.normal.dot(normal) < smooth) continue;
-                parts.unite_least(face.index(), other->second.face.index());
-                const auto [low, high] = std::minmax(along, other->second.normal.dot(axis));
-                if (low <= kRoundoff && high >= -kRoundoff)
-                    sides.push_back({face, (model.at(a) - model.at(b)).norm(),
-                                     (model.at(a) + model.at(b)).dot(axis) / 2});
-            }
-        }
-    for (std::size_t f = 0; f < turns.size(); ++f) {
-        Turn& part = turns[parts.find(f)];
-        part.ahead |= turns[f].ahead;
-        part.behind |= turns[f].behind;
-    }
-    for (const Side& side : sides) {
-        Turn& part = turns[parts.find(side.face.index())];
-        part.length += side.length;
-        part.moment += side.length * side.height;
-    }
-    for (std::size_t e = 0; e < model.edges.size(); ++e) {
-        const auto height = [&](Index p) { return model.at(p).dot(axis); };
-        const auto [low, high] = std::ranges::minmax(model.edges[e].points, {}, height);
-        for (const FaceUse& use : model.uses_of_edge(EdgeId(e))) {
-            Turn& part = turns[parts.find(use.face.index())];
-            const bool is_rim = std::ranges::any_of(model.uses_of_edge(EdgeId(e)), [&](const FaceUse& other) {
-                return parts.find(other.face.index()) != parts.find(use.face.index());
-            });
-            const double at = part.moment / part.length;
-            part.crosses_rim |= is_rim && height(low) < at && height(high) > at;
-        }
-    }
-    std::vector<double> heights;
-    for (const Turn& part : turns) {
-        if (!part.ahead || !part.behind || part.crosses_rim || !(part.length > 0)) continue;
-        const double height = part.moment / part.length;
-        if (std::ranges::none_of(
-                heights, [&](double own) { return std::abs(own - height) <= kVisible * model.diagonal; }))
-            heights.push_back(height);
-    }
-    return heights;
 }
 
 /// Cut a volume across an axis where smooth parts of its skin turn over, so that each such part becomes an
