@@ -175,6 +175,23 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vect
     return flood;
 }
 
+/// Faces that are parts of earlier ones, in the numbers of these: the first part of each has its number, and
+/// the other parts follow after all.
+Flood numbered_after(const Flood& before, Flood parts)
+{
+    std::vector<Index> number(index(parts.faces), -1);
+    std::vector<char> taken(index(before.faces), 0);
+    Index next = before.faces;
+    for (std::size_t f = 0; f < parts.face.size(); ++f) {
+        Index& own = number[index(parts.face[f])];
+        char& is_taken = taken[index(before.face[f])];
+        if (own < 0) own = is_taken != 0 ? next++ : before.face[f];
+        is_taken = 1;
+        parts.face[f] = own;
+    }
+    return parts;
+}
+
 /// Move the facets at the border of a face into the adjacent face if their own normals are closer to the
 /// normals there, or if that shortens the border.
 void straighten_borders(const Facets& facets, const FacetSides& sides, std::vector<Vec3>& normal,
@@ -557,7 +574,7 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
         flood = flood_noisy(facets, sides, feature, context);
     else if (!options.whole_labels)
         if (const auto closing = CreaseGaps(facets, sides, normal, feature).find(); !closing.empty())
-            flood = flood_faces(facets, sides, normal, feature, closing, context);
+            flood = numbered_after(flood, flood_faces(facets, sides, normal, feature, closing, context));
     model.points = facets.points;
     model.tolerance = facets.tolerance;
     model.diagonal = facets.diagonal;
