@@ -182,13 +182,14 @@ os.remove(path)
 
 --- Facets of a smooth junction of a tube of radius 1 along x with a branch, open where they leave the box:
 --- the level 0 of a smooth minimum of distances, on tetrahedra.
-local function junction(radius, slope, sway)
+local function junction(radius, slope, sway, aside)
   local function value(x, y, z)
     y = y - sway * x * x / 8
     local along = math.max(0, (x * slope + z) / (1 + slope * slope))
     local tube = math.sqrt(y * y + z * z) - 1
     local branch = math.sqrt((x - slope * along) ^ 2 + y * y + (z - along) ^ 2) - radius
-    return -math.log(math.exp(-6 * tube) + math.exp(-6 * branch)) / 6
+    local other = aside and y > 0 and math.sqrt((x - 0.5) ^ 2 + z * z) - 0.5 or 1
+    return -math.log(math.exp(-6 * tube) + math.exp(-6 * branch) + math.exp(-6 * other)) / 6
   end
   local step, facets, corners, values = 0.2, {}, {}, {}
   local low, count = { -3.97, -1.97 - 2 * sway, -1.57 }, { 40, 20 + math.ceil(20 * sway), 26 }
@@ -241,6 +242,14 @@ local function junction(radius, slope, sway)
   lines[#lines + 1] = "endsolid\n"
   check.write(params.scratch .. "/junction.stl", table.concat(lines, "\n"))
   return lacuna.load(params.scratch .. "/junction.stl")
+end
+
+-- Tubes that leave a smooth junction to several sides are cut or refused in words.
+do
+  local model = junction(0.5, 0, 0, true)
+  check.equal(#model:faces(), 5)
+  local done, err = pcall(function() return model:open_volume {}:sweep { size = 0.3 } end)
+  check.that(done or err.code == "closure.branches", not done and err.code)
 end
 
 -- Smooth junctions with three open ends, such as a scanned artery: a tube is a face of its own.

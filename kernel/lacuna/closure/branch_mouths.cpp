@@ -135,6 +135,12 @@ private:
         double length = 0;
     };
 
+    /// Whether two faces were one before it was divided: faces of facets that no name distinguishes.
+    static bool were_one(const Face& a, const Face& b)
+    {
+        return !a.surface && !b.surface && a.name == b.name && a.groups == b.groups && a.regions == b.regions;
+    }
+
     [[nodiscard]] std::vector<SmoothLine> smooth_lines() const
     {
         const std::set<EdgeId> at_ends = edges_of(model_, ends_);
@@ -148,7 +154,8 @@ private:
                 if (rim.uses.size() != 1 || uses.size() != 2) continue;
                 const FaceId junction = uses[uses[0].face == tube ? 1 : 0].face;
                 if (std::abs(turns_[edge.index()]) >= kCreaseAngle / 2 ||
-                    volume_.role[junction.index()] != Role::wall || rims(model_, {junction}).size() < 3)
+                    volume_.role[junction.index()] != Role::wall ||
+                    !were_one(model_[tube], model_[junction]) || rims(model_, {junction}).size() < 3)
                     continue;
                 const bool ends = std::ranges::any_of(
                     both, [&](const Rim& own) { return at_ends.contains(own.uses.front().edge); });
@@ -163,14 +170,17 @@ private:
     void add_smooth_mouths()
     {
         const std::vector<SmoothLine> lines = smooth_lines();
+        const auto sides_are_known = [&] {
+            find_regions(); // numbered anew for all mouths
+            return std::ranges::all_of(result_.mouths, [&](Mouth& mouth) { return set_sides(mouth); });
+        };
         for (const SmoothLine& line : lines) {
             result_.mouths.push_back({{line.edge}});
-            if (line.may_be_mouth) find_regions();
-            if (line.may_be_mouth && set_sides(result_.mouths.back())) continue;
+            if (line.may_be_mouth && sides_are_known()) continue;
             result_.mouths.pop_back();
             result_.passed.emplace_back(line.junction, line.tube);
         }
-        if (!lines.empty()) find_regions();
+        if (!lines.empty()) sides_are_known();
     }
 
     /// The angle by which the skin turns from one rim of a fillet to the other, on average; positive if the

@@ -274,6 +274,8 @@ private:
             }
         }
         Branching again = find_mouths(lined, context_);
+        if (again.mouths.empty())
+            refuse(found_.mouths.front(), "tubes leave a smooth junction to several sides");
         return BranchCutter(lined, std::move(again), context_, true).run();
     }
 

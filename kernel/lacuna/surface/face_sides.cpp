@@ -124,8 +124,13 @@ std::vector<std::vector<EdgeId>> sides_by_corners(const Model& model, FaceId fac
 
 bool is_tube(const Model& model, FaceId face)
 {
-    if (model[face].loops.size() != 2 || border_loops(model, face).size() != 2 ||
-        euler_number(model, {face}) != 0)
+    const std::vector<Loop> border = border_loops(model, face);
+    const auto has_seam = [&](const Loop& loop) { // from the loop into the face
+        return std::ranges::none_of(border,
+                                    [&](const Loop& own) { return own.uses.size() == loop.uses.size(); });
+    };
+    if (model[face].loops.size() != 2 || border.size() != 2 || euler_number(model, {face}) != 0 ||
+        std::ranges::any_of(model[face].loops, has_seam))
         return false;
     const Vec3 normal = face_area_vector(model, face).stableNormalized();
     return std::ranges::any_of(model[face].triangles, [&](const Triangle& t) {
