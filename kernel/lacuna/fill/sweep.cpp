@@ -25,6 +25,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace lacuna::fill {
@@ -192,8 +193,17 @@ double hex_share(const FilledParts& mesh)
     return 1 - tets / fidelity(mesh).volume;
 }
 
-/// Meshes partitions of a volume and keeps the mesh with the largest share of hexahedra. Only the notes of
-/// that mesh are logged.
+/// The least scaled Jacobian of the hexahedra of a mesh.
+double least_of(const FilledParts& mesh)
+{
+    double least = 1;
+    for (const sweep::Swept& part : mesh.swept.parts)
+        least = std::min(least, part.quality.min_scaled_jacobian);
+    return least;
+}
+
+/// Meshes partitions of a volume and keeps the mesh with the largest share of hexahedra, of several the one
+/// whose worst cell is best. Only the notes of that mesh are logged.
 class PieceMesher {
 public:
     PieceMesher(const Volume& sealed, const Message& why, const sweep::SweepOptions& options, bool sized,
@@ -218,8 +228,8 @@ public:
         note_joined(sealed_.volume.model, pieces, own);
         try {
             FilledParts mesh = sweep_pieces_true(sealed_, pieces, options_, sized_, own);
-            const double share = hex_share(mesh);
-            if (!(share > share_)) return;
+            const std::pair worth(hex_share(mesh), least_of(mesh));
+            if (!(worth > std::pair(share_, least_))) return;
             notes.push_back(formatted("note: no {} fills the volume{}; the report says why [{}]",
                                       is_cut || divided ? "single sweep" : "likely sweep",
                                       is_cut    ? ", so it is cut into pieces"
@@ -229,7 +239,7 @@ public:
             mesh.swept.report.insert(mesh.swept.report.begin(), std::move(cut));
             best_ = std::move(mesh);
             pieces_ = std::move(pieces);
-            share_ = share;
+            std::tie(share_, least_) = worth;
             notes_ = std::move(notes);
         } catch (const Cancelled&) {
             throw;
@@ -239,6 +249,8 @@ public:
     }
 
     [[nodiscard]] double share() const { return share_; }
+    /// Whether the mesh is of hexahedra alone, and none is poor.
+    [[nodiscard]] bool is_good() const { return share_ == 1 && least_ >= kPoorCell; }
     /// The pieces of the best mesh; empty if there is none.
     std::vector<closure::StepPiece> pieces() { return std::move(pieces_); }
 
@@ -257,6 +269,7 @@ private:
     std::optional<FilledParts> best_;
     std::vector<closure::StepPiece> pieces_;
     double share_ = 0; ///< of the volume of `best_` that is in hexahedra
+    double least_ = 0; ///< least scaled Jacobian of `best_`
     std::vector<std::string> notes_;
 };
 
@@ -291,7 +304,7 @@ void mesh_partitions(PieceMesher& mesher, const Volume& sealed, bool mixed, cons
             mesher.mesh(std::move(pieces));
         else if (mixed && share > kWorthMixing)
             partial.emplace(share, std::move(pieces));
-        return mesher.share() == 1;
+        return mesher.is_good();
     };
     partitions(sealed.volume, take, context);
     for (auto& [share, pieces] : partial)
