@@ -11,6 +11,7 @@
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/joined_faces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,14 +63,14 @@ public:
 private:
     void find_lines()
     {
-        const auto [turns, faces_void] = skin_turns(volume_, context_);
-        turns_ = turns;
+        auto [turns, faces_void] = skin_turns(volume_, context_);
+        turns_ = std::move(turns);
         const std::set<EdgeId> at_ends = edges_of(model_, ends_);
         std::map<VertexId, std::vector<EdgeId>> at;
         geometry::UnionFind sets(model_.edges.size());
         std::vector<EdgeId> concave;
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (at_ends.contains(EdgeId(e)) || turns[e] < kCreaseAngle / 2) continue;
+            if (at_ends.contains(EdgeId(e)) || turns_[e] < kCreaseAngle / 2) continue;
             concave.emplace_back(e);
             for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
                 for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);
@@ -84,16 +85,15 @@ private:
             });
             if (closed) result_.mouths.push_back({std::move(edges)});
         }
-        find_fillets(turns, faces_void, at_ends);
+        find_fillets(faces_void, at_ends);
     }
 
     /// Find the rings of smooth faces that replace a mouth's line. One rim of such a ring is a whole rim of
     /// one wall.
-    void find_fillets(const std::vector<double>& turns, const std::vector<bool>& faces_void,
-                      const std::set<EdgeId>& at_ends)
+    void find_fillets(const std::vector<bool>& faces_void, const std::set<EdgeId>& at_ends)
     {
         const auto is_smooth = [&](const EdgeUse& use) {
-            return !at_ends.contains(use.edge) && std::abs(turns[use.edge.index()]) < kCreaseAngle / 2 &&
+            return !at_ends.contains(use.edge) && std::abs(turns_[use.edge.index()]) < kCreaseAngle / 2 &&
                    model_.uses_of_edge(use.edge).size() == 2;
         };
         const auto edges_of_rim = [](const Rim& rim) {
@@ -135,12 +135,8 @@ private:
         double length = 0;
     };
 
-    /// Whether two faces were one before it was divided: faces of facets that no name distinguishes.
-    static bool were_one(const Face& a, const Face& b)
-    {
-        return !a.surface && !b.surface && a.name == b.name && a.groups == b.groups && a.regions == b.regions;
-    }
-
+    /// The smooth lines, the shortest first. Tube and junction were one face of facets before it was divided:
+    /// no name distinguishes them.
     [[nodiscard]] std::vector<SmoothLine> smooth_lines() const
     {
         const std::set<EdgeId> at_ends = edges_of(model_, ends_);
@@ -154,8 +150,9 @@ private:
                 if (rim.uses.size() != 1 || uses.size() != 2) continue;
                 const FaceId junction = uses[uses[0].face == tube ? 1 : 0].face;
                 if (std::abs(turns_[edge.index()]) >= kCreaseAngle / 2 ||
-                    volume_.role[junction.index()] != Role::wall ||
-                    !were_one(model_[tube], model_[junction]) || rims(model_, {junction}).size() < 3)
+                    volume_.role[junction.index()] != Role::wall || model_[tube].surface ||
+                    model_[junction].surface || !are_named_alike(model_[tube], model_[junction]) ||
+                    rims(model_, {junction}).size() < 3)
                     continue;
                 const bool ends = std::ranges::any_of(
                     both, [&](const Rim& own) { return at_ends.contains(own.uses.front().edge); });
@@ -166,7 +163,7 @@ private:
         return lines;
     }
 
-    /// Add the smooth lines that are mouths, the shortest first.
+    /// Add the smooth lines that are mouths.
     void add_smooth_mouths()
     {
         const std::vector<SmoothLine> lines = smooth_lines();

@@ -84,6 +84,24 @@ std::vector<StepPiece> finished(std::vector<StepPiece> parts, std::size_t most, 
     return made;
 }
 
+/// Cut a volume by planes, one after the other, and finish its parts (`finished()`). Empty also if a plane
+/// passes closely beside an edge, or does not cut a part in two.
+std::vector<StepPiece> divided_by_planes(const OpenVolume& volume, std::span<const geometry::Plane> planes,
+                                         std::size_t most, const CanSweep& can_sweep,
+                                         const RunContext& context)
+{
+    auto parts = unless_refused([&] {
+        std::vector<StepPiece> made{{volume}};
+        for (const geometry::Plane& plane : planes)
+            made = cut_each(std::move(made), plane, [&](const OpenVolume& part) {
+                return cut_at_edges(part, plane, {}, 0, context);
+            });
+        return made;
+    });
+    if (!parts || parts->size() < 2) return {};
+    return finished(std::move(*parts), most, can_sweep, context);
+}
+
 } // namespace
 
 std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_t most,
@@ -137,19 +155,10 @@ std::vector<StepPiece> divided_where_turning(const OpenVolume& volume, std::size
     if (axes.size() > kMostTrials) axes.resize(kMostTrials);
     for (const Vec3& axis : axes) {
         check_cancelled(context);
-        std::vector<StepPiece> parts{{volume}};
-        // The cuts are refused if a plane passes closely beside an edge.
-        const auto cut = unless_refused([&] {
-            for (const double height : turning_heights(volume.model, axis)) {
-                const geometry::Plane plane = geometry::plane_across(height * axis, axis);
-                parts = cut_each(std::move(parts), plane, [&](const OpenVolume& part) {
-                    return cut_at_edges(part, plane, {}, 0, context);
-                });
-            }
-            return parts.size() > 1;
-        });
-        if (!cut || !*cut) continue;
-        std::vector<StepPiece> made = finished(std::move(parts), most, can_sweep, context);
+        std::vector<geometry::Plane> planes;
+        for (const double height : turning_heights(volume.model, axis))
+            planes.push_back(geometry::plane_across(height * axis, axis));
+        std::vector<StepPiece> made = divided_by_planes(volume, planes, most, can_sweep, context);
         if (!made.empty()) return made;
     }
     return {};
@@ -176,16 +185,12 @@ std::vector<Vec3> centres_of(const Model& model)
     return centres;
 }
 
-} // namespace
-
-namespace {
-
-/// Normals of three perpendicular planes to cut through a centre: preferably normals of flat faces, then
+/// Three perpendicular planes through a centre. Their normals are preferably normals of flat faces, then
 /// directions to other centres. If these do not suffice, a normal points towards a vertex or a point of an
 /// edge. Another plane then passes through that point; if it passed closely beside an edge, the cut would be
 /// refused.
-std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& centres,
-                                  const OpenVolume& volume)
+std::array<geometry::Plane, 3> planes_at(const Vec3& centre, const std::vector<Vec3>& centres,
+                                         const OpenVolume& volume)
 {
     const Model& model = volume.model;
     std::vector<Vec3> axes = axes_of(volume, false);
@@ -207,7 +212,8 @@ std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& c
         axes, [&](const Vec3& axis) { return std::abs(axis.dot(first)) < kParallel; });
     const Vec3 second = across == axes.end() ? way_beside(first)
                                              : Vec3((*across - first.dot(*across) * first).normalized());
-    return {first, second, first.cross(second)};
+    return {geometry::plane_across(centre, first), geometry::plane_across(centre, second),
+            geometry::plane_across(centre, first.cross(second))};
 }
 
 } // namespace
@@ -218,19 +224,8 @@ std::vector<StepPiece> divided_at_centre(const OpenVolume& volume, std::size_t m
     const std::vector<Vec3> centres = centres_of(volume.model);
     for (const Vec3& centre : centres) {
         check_cancelled(context);
-        std::vector<StepPiece> parts{{volume}};
-        // The cuts are refused if a plane passes closely beside an edge, or does not cut a part in two.
-        const auto cut = unless_refused([&] {
-            for (const Vec3& normal : directions_at(centre, centres, volume)) {
-                const geometry::Plane plane = geometry::plane_across(centre, normal);
-                parts = cut_each(std::move(parts), plane, [&](const OpenVolume& part) {
-                    return cut_at_edges(part, plane, {}, 0, context);
-                });
-            }
-            return parts.size() > 1;
-        });
-        if (!cut || !*cut) continue;
-        std::vector<StepPiece> made = finished(std::move(parts), most, can_sweep, context);
+        std::vector<StepPiece> made = divided_by_planes(volume, planes_at(centre, centres, volume), most,
+                                                        can_sweep, context);
         if (!made.empty()) return made;
     }
     return {};

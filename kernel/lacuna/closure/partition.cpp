@@ -291,13 +291,13 @@ bool make_ledges_walls(OpenVolume& volume, const Vec3& axis)
 {
     const Model& model = volume.model;
     const auto is_ledge = [&](FaceId face) {
+        const Vec3 centre = face_centroid(model, face);
         bool on = false, back = false;
         for (const EdgeUse& use : uses_of(model[face]))
             for (const FaceUse& beside : model.uses_of_edge(use.edge)) {
                 if (beside.face == face) continue;
                 if (volume.role[beside.face.index()] != Role::wall) return false;
-                const double rise =
-                    (face_centroid(model, beside.face) - face_centroid(model, face)).dot(axis);
+                const double rise = (face_centroid(model, beside.face) - centre).dot(axis);
                 on |= rise > model.tolerance;
                 back |= rise < -model.tolerance;
             }
@@ -310,9 +310,9 @@ bool make_ledges_walls(OpenVolume& volume, const Vec3& axis)
     return !ledges.empty();
 }
 
-/// Cut a volume at the steps of its ends along an axis (`set_ends_along()`). If that fails, ledges become
-/// walls. Examples: foam around a tilted product, or around a bottle whose lip is wider than its neck. Empty
-/// if no axis gives pieces that can be swept.
+/// Cut a volume at the steps of its ends along an axis (`set_ends_along()`), such as foam around a tilted
+/// product. If that fails, ledges become walls, such as the underside of a bottle's lip. Empty if no axis
+/// gives pieces that can be swept.
 std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
                                     const RunContext& context)
 {

@@ -222,12 +222,10 @@ std::vector<EdgeId> smooth_fans(const OpenVolume& volume, const RunContext& cont
     return fans;
 }
 
-/// Whether two walls may become one face: neither has a mesh of its own, and no name or set of the input
-/// distinguishes them.
+/// Whether two walls may become one face: neither has a mesh of its own, and no name distinguishes them.
 bool may_join(const Face& a, const Face& b)
 {
-    return a.given_quads.empty() && b.given_quads.empty() && a.name == b.name && a.groups == b.groups &&
-           a.regions == b.regions && a.origin == b.origin;
+    return a.given_quads.empty() && b.given_quads.empty() && a.origin == b.origin && are_named_alike(a, b);
 }
 
 /// Join the walls on both sides of the edges that `smooth_fans()` finds, and drop these edges. Only one
@@ -238,22 +236,13 @@ void join_rounds(OpenVolume& volume, const RunContext& context)
     if (fans.empty()) return;
     const Model& model = volume.model;
     geometry::UnionFind joined(model.faces.size());
+    bool any = false;
     for (const EdgeId edge : fans) {
         const std::span<const FaceUse> uses = model.uses_of_edge(edge);
         if (may_join(model[uses[0].face], model[uses[1].face]))
-            joined.unite_least(uses[0].face.index(), uses[1].face.index());
+            any = joined.unite_least(uses[0].face.index(), uses[1].face.index()) || any;
     }
-    std::map<std::size_t, std::vector<FaceId>> by_first;
-    for (const FaceId face : all_faces(model)) by_first[joined.find(face.index())].push_back(face);
-    if (by_first.size() == model.faces.size()) return;
-    std::vector<std::vector<FaceId>> parts;
-    std::vector<Role> role;
-    for (auto& [first, own] : by_first) {
-        role.push_back(volume.role[first]);
-        parts.push_back(std::move(own));
-    }
-    volume.model = join_faces(model, parts, context);
-    volume.role = std::move(role);
+    if (any) join_faces(volume, std::move(joined), context);
 }
 
 } // namespace

@@ -193,6 +193,25 @@ double hex_share(const FilledParts& mesh)
     return 1 - tets / fidelity(mesh).volume;
 }
 
+/// The result of an attempt that logs its notes to a context of its own. Empty if it fails; the log says why.
+/// @param what   attempted
+/// @param notes  receives the notes, which are to be logged only if the result is used
+template <class Attempt>
+auto attempted(std::string_view what, std::vector<std::string>& notes, const RunContext& context,
+               const Attempt& attempt) -> decltype(attempt(context))
+{
+    RunContext own = context;
+    own.log = [&](std::string_view line) { notes.emplace_back(line); };
+    try {
+        return attempt(own);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        log_line(context, formatted("{}: {}", what, error.message().text()));
+        return std::nullopt;
+    }
+}
+
 /// The least scaled Jacobian of the hexahedra of a mesh.
 double least_of(const FilledParts& mesh)
 {
@@ -223,29 +242,24 @@ public:
                                                      : "",
                                              why_.text());
         std::vector<std::string> notes;
-        RunContext own = context_;
-        own.log = [&](std::string_view line) { notes.emplace_back(line); };
-        note_joined(sealed_.volume.model, pieces, own);
-        try {
-            FilledParts mesh = sweep_pieces_true(sealed_, pieces, options_, sized_, own);
-            const std::pair worth(hex_share(mesh), least_of(mesh));
-            if (!(worth > std::pair(share_, least_))) return;
-            notes.push_back(formatted("note: no {} fills the volume{}; the report says why [{}]",
-                                      is_cut || divided ? "single sweep" : "likely sweep",
-                                      is_cut    ? ", so it is cut into pieces"
-                                      : divided ? " as it is, so its rounds are divided"
-                                                : ", so other faces are its ends",
-                                      why_.code()));
-            mesh.swept.report.insert(mesh.swept.report.begin(), std::move(cut));
-            best_ = std::move(mesh);
-            pieces_ = std::move(pieces);
-            std::tie(share_, least_) = worth;
-            notes_ = std::move(notes);
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const Error& error) {
-            log_line(context_, formatted("{}: {}", cut, error.message().text()));
-        }
+        auto mesh = attempted(cut, notes, context_, [&](const RunContext& own) {
+            note_joined(sealed_.volume.model, pieces, own);
+            return std::optional(sweep_pieces_true(sealed_, pieces, options_, sized_, own));
+        });
+        if (!mesh) return;
+        const std::pair worth(hex_share(*mesh), least_of(*mesh));
+        if (!(worth > std::pair(share_, least_))) return;
+        notes.push_back(formatted("note: no {} fills the volume{}; the report says why [{}]",
+                                  is_cut || divided ? "single sweep" : "likely sweep",
+                                  is_cut    ? ", so it is cut into pieces"
+                                  : divided ? " as it is, so its rounds are divided"
+                                            : ", so other faces are its ends",
+                                  why_.code()));
+        mesh->swept.report.insert(mesh->swept.report.begin(), std::move(cut));
+        best_ = std::move(mesh);
+        pieces_ = std::move(pieces);
+        std::tie(share_, least_) = worth;
+        notes_ = std::move(notes);
     }
 
     [[nodiscard]] double share() const { return share_; }
@@ -362,23 +376,18 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
 std::optional<Filled> fill_joined(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
     std::vector<std::string> notes;
-    RunContext own = context;
-    own.log = [&](std::string_view line) { notes.emplace_back(line); };
-    try {
+    const auto fill = [&](const RunContext& own) -> std::optional<Filled> {
         const auto joined = with_joined_faces(volume, own);
         if (!joined) return std::nullopt;
         SweepRequest request = asked;
         if (request.options.fallback == sweep::Fallback::mixed)
             request.options.fallback = sweep::Fallback::none;
-        Filled filled = sweep_or_fill(*joined, request, own);
+        return sweep_or_fill(*joined, request, own);
+    };
+    auto filled = attempted("with faces joined", notes, context, fill);
+    if (filled)
         for (const std::string& note : notes) log_line(context, note);
-        return filled;
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
-        log_line(context, formatted("with faces joined: {}", error.message().text()));
-        return std::nullopt;
-    }
+    return filled;
 }
 
 /// Mesh a volume that no single sweep fills, in pieces that can be swept. With `Fallback::mixed`, pieces that

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -116,11 +117,6 @@ bool may_join(const Face& face)
     return face.origin == Origin::given && !face.keeps_nodes && face.given_quads.empty() && has_surface(face);
 }
 
-bool are_alike(const Face& a, const Face& b)
-{
-    return a.kind == b.kind && a.name == b.name && a.groups == b.groups && a.regions == b.regions;
-}
-
 /// The edges of a model without those between the parts of a joined face. Seams of a joined face stay only
 /// where they connect its other edges.
 /// @param group  for each face, the face that it becomes a part of
@@ -159,8 +155,10 @@ std::vector<FaceId> continued(const Model& model, FaceId root, const std::functi
             const auto uses = model.uses_of_edge(use.edge);
             if (uses.size() != 2) continue;
             const FaceUse& beside = uses[uses[0].face == parts[p] ? 1 : 0];
-            if (std::ranges::find(parts, beside.face) != parts.end() || !may_join(model[beside.face]) ||
-                !are_alike(model[beside.face], model[root]) || !is_free(beside.face))
+            const Face& other = model[beside.face];
+            if (std::ranges::find(parts, beside.face) != parts.end() || !may_join(other) ||
+                other.kind != model[root].kind || !are_named_alike(other, model[root]) ||
+                !is_free(beside.face))
                 continue;
             if (!shape) {
                 shape = shape_of(model, root);
@@ -215,6 +213,25 @@ Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& par
     builder.build_loops(context);
     const Model joined = std::move(builder).finish();
     return extract(joined, all_faces(joined));
+}
+
+void join_faces(OpenVolume& volume, geometry::UnionFind joined, const RunContext& context)
+{
+    std::map<std::size_t, std::vector<FaceId>> sets;
+    for (const FaceId face : all_faces(volume.model)) sets[joined.find(face.index())].push_back(face);
+    std::vector<std::vector<FaceId>> parts;
+    std::vector<Role> role;
+    for (auto& [root, own] : sets) {
+        role.push_back(volume.role[root]);
+        parts.push_back(std::move(own));
+    }
+    volume.model = join_faces(volume.model, parts, context);
+    volume.role = std::move(role);
+}
+
+bool are_named_alike(const Face& a, const Face& b)
+{
+    return a.name == b.name && a.groups == b.groups && a.regions == b.regions;
 }
 
 std::vector<std::vector<FaceId>> continued_faces(const Model& model, const std::vector<int>& apart,

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/topology/model.h>
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/topology/open_volume.h>
 
 #include <vector>
 
@@ -15,6 +16,13 @@ namespace lacuna::topology {
 /// @note  O(facets).
 Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& parts,
                  const RunContext& context = {});
+
+/// Join faces of a volume, as above.
+/// @param joined  sets of faces of the same role
+void join_faces(OpenVolume& volume, geometry::UnionFind joined, const RunContext& context = {});
+
+/// Whether neither a name nor a group or region of the input distinguishes two faces.
+bool are_named_alike(const Face& a, const Face& b);
 
 /// The faces of a model, each with the faces that continue it on the same plane, cylinder, cone or sphere,
 /// such as the narrow faces of a shell's cylinder that a CAD system leaves round the mouth of a nozzle; the
