@@ -8,10 +8,10 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/facet_area.h>
-#include <lacuna/topology/shared/joined_faces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -129,34 +129,39 @@ private:
 
     /// A smooth line at which a tube leaves a junction of three or more tubes.
     struct SmoothLine {
-        EdgeId edge;
+        std::vector<EdgeId> edges;
         FaceId tube, junction;
         bool may_be_mouth = false; ///< tubes with ends of the sweep belong to the main body
         double length = 0;
     };
 
-    /// The smooth lines, the shortest first. Tube and junction were one face of facets before it was divided:
-    /// no name distinguishes them.
+    /// The smooth lines, the shortest first. Cuts may have divided the junction.
     [[nodiscard]] std::vector<SmoothLine> smooth_lines() const
     {
         const std::set<EdgeId> at_ends = edges_of(model_, ends_);
+        const auto junction_at = [&](const EdgeUse& use) {
+            for (const FaceUse& user : model_.uses_of_edge(use.edge))
+                if (!model_[user.face].tube && model_[user.face].origin == Origin::given &&
+                    volume_.role[user.face.index()] == Role::wall &&
+                    std::abs(turns_[use.edge.index()]) < kCreaseAngle / 2)
+                    return user.face;
+            return FaceId{};
+        };
         std::vector<SmoothLine> lines;
         for (const FaceId tube : volume_.faces(Role::wall)) {
+            if (!model_[tube].tube) continue;
             const std::vector<Rim> both = rims(model_, {tube});
-            if (both.size() != 2) continue;
+            const bool ends = std::ranges::any_of(
+                both, [&](const Rim& own) { return at_ends.contains(own.uses.front().edge); });
             for (const Rim& rim : both) {
-                const EdgeId edge = rim.uses.front().edge;
-                const std::span<const FaceUse> uses = model_.uses_of_edge(edge);
-                if (rim.uses.size() != 1 || uses.size() != 2) continue;
-                const FaceId junction = uses[uses[0].face == tube ? 1 : 0].face;
-                if (std::abs(turns_[edge.index()]) >= kCreaseAngle / 2 ||
-                    volume_.role[junction.index()] != Role::wall || model_[tube].surface ||
-                    model_[junction].surface || !are_named_alike(model_[tube], model_[junction]) ||
-                    rims(model_, {junction}).size() < 3)
+                if (!std::ranges::all_of(rim.uses, [&](const EdgeUse& u) { return junction_at(u).valid(); }))
                     continue;
-                const bool ends = std::ranges::any_of(
-                    both, [&](const Rim& own) { return at_ends.contains(own.uses.front().edge); });
-                lines.push_back({edge, tube, junction, !ends, edge_length(model_, edge)});
+                SmoothLine line{{}, tube, junction_at(rim.uses.front()), !ends && both.size() == 2};
+                for (const EdgeUse& use : rim.uses) {
+                    line.edges.push_back(use.edge);
+                    line.length += edge_length(model_, use.edge);
+                }
+                lines.push_back(std::move(line));
             }
         }
         std::ranges::sort(lines, {}, &SmoothLine::length);
@@ -172,7 +177,7 @@ private:
             return std::ranges::all_of(result_.mouths, [&](Mouth& mouth) { return set_sides(mouth); });
         };
         for (const SmoothLine& line : lines) {
-            result_.mouths.push_back({{line.edge}});
+            result_.mouths.push_back({line.edges});
             if (line.may_be_mouth && sides_are_known()) continue;
             result_.mouths.pop_back();
             result_.passed.emplace_back(line.junction, line.tube);
@@ -245,7 +250,7 @@ private:
         if (worth(mouth.host) < worth(mouth.branch)) std::swap(mouth.host, mouth.branch);
         if (result_.ends[mouth.host].size() < 2) return false;
         const std::vector<Vec3> rim = places(model_, mouth.edges);
-        const Vec3 centre = geometry::mean_point(rim);
+        const Vec3 centre = geometry::centre_of_ring(rim);
         const Vec3 normal = geometry::newell_vector(rim).normalized();
         // If the normal of the line is parallel to the main body's axis, the section of the body changes
         // there; the line is not a mouth.

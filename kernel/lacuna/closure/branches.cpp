@@ -15,6 +15,7 @@
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/spread.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -58,7 +59,8 @@ struct Reach {
 
 class BranchCutter {
 public:
-    BranchCutter(const OpenVolume& volume, Branching found, const RunContext& context, bool lined = false)
+    /// @param lined  tags of walls that planes along their main body have split; run() adds to them
+    BranchCutter(const OpenVolume& volume, Branching found, std::set<int>& lined, const RunContext& context)
         : volume_(volume), found_(std::move(found)), context_(context), lined_(lined)
     {
     }
@@ -70,7 +72,7 @@ public:
         for (const Mouth& mouth : found_.mouths)
             if (mouth.host == host) mouths.push_back(&mouth);
         set_axis(*mouths.front());
-        if (!lined_) {
+        if (!is_lined(host)) {
             const std::vector<geometry::Plane> planes = planes_along(mouths);
             if (!planes.empty()) return with_lines(planes);
         }
@@ -91,6 +93,15 @@ public:
     }
 
 private:
+    /// Whether planes along a main body have split its walls, perhaps when another branch was cut off.
+    [[nodiscard]] bool is_lined(std::size_t host) const
+    {
+        return std::ranges::any_of(found_.faces[host], [&](FaceId face) {
+            return volume_.role[face.index()] == Role::wall && volume_.model[face].origin == Origin::given &&
+                   lined_.contains(volume_.model[face].tag);
+        });
+    }
+
     [[noreturn]] void refuse(const Mouth& mouth, const std::string& why) const
     {
         const Reach own = reach(mouth);
@@ -156,14 +167,14 @@ private:
         Vec3 far = Vec3::Zero();
         for (const FaceId face : found_.faces[mouth.branch]) far += face_centroid(volume_.model, face);
         far /= static_cast<double>(found_.faces[mouth.branch].size());
-        return (far - geometry::mean_point(rim)).dot(normal) < 0 ? Vec3(-normal) : normal;
+        return (far - geometry::centre_of_ring(rim)).dot(normal) < 0 ? Vec3(-normal) : normal;
     }
 
     /// The tube of a branch. Its direction is that across the normals of its facets near the mouth.
     [[nodiscard]] Tube tube_of(const Mouth& mouth) const
     {
         const std::vector<Vec3> rim = rim_places(mouth);
-        Tube tube{geometry::mean_point(rim), way_out(mouth)};
+        Tube tube{geometry::centre_of_ring(rim), way_out(mouth)};
         double wide = 0;
         for (const Vec3& p : rim) wide = std::max(wide, (p - tube.middle).norm());
         std::vector<Vec3> normals;
@@ -189,7 +200,7 @@ private:
     /// Set the main body's axis: the direction from end to end, without its component along the branch.
     void set_axis(const Mouth& mouth)
     {
-        centre_ = geometry::mean_point(rim_places(mouth));
+        centre_ = geometry::centre_of_ring(rim_places(mouth));
         const Vec3 outward = way_out(mouth);
         const std::vector<Vec3>& ends = found_.ends[mouth.host];
         const Vec3 way = ends.back() - ends.front();
@@ -255,7 +266,7 @@ private:
     /// Split the walls of the main body by planes along its axis, then cut off the branches. If mouths lie on
     /// several sides, the two ends of a piece have rims that are bent differently. The new wall edges
     /// determine which vertices of these rims correspond.
-    std::vector<StepPiece> with_lines(const std::vector<geometry::Plane>& planes) const
+    std::vector<StepPiece> with_lines(const std::vector<geometry::Plane>& planes)
     {
         OpenVolume lined = volume_;
         std::vector<FaceId> walls = found_.faces[found_.mouths.front().host];
@@ -273,10 +284,8 @@ private:
                 if (std::ranges::find(walls, made.parent[f]) != walls.end()) walls.emplace_back(f);
             }
         }
-        Branching again = find_mouths(lined, context_);
-        if (again.mouths.empty())
-            refuse(found_.mouths.front(), "tubes leave a smooth junction to several sides");
-        return BranchCutter(lined, std::move(again), context_, true).run();
+        for (const FaceId wall : walls) lined_.insert(lined.model[wall].tag);
+        return BranchCutter(lined, find_mouths(lined, context_), lined_, context_).run();
     }
 
     /// Width of the widest mouth.
@@ -548,7 +557,7 @@ private:
     const OpenVolume& volume_;
     Branching found_;
     const RunContext& context_;
-    bool lined_ = false; ///< whether the walls have been split by planes along the main body
+    std::set<int>& lined_;
     /// Centre of the first mouth, and direction of the main body's axis.
     Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero();
 };
@@ -563,6 +572,19 @@ OpenVolume with_junctions_joined(OpenVolume volume, const Branching& found, cons
     return volume;
 }
 
+std::vector<StepPiece> cut_branches(const OpenVolume& volume, std::set<int>& lined, const RunContext& context)
+{
+    Branching found = find_mouths(volume, context);
+    if (found.mouths.empty()) return {{.volume = volume}};
+    if (!found.passed.empty())
+        return cut_branches(with_junctions_joined(volume, found, context), lined, context);
+    std::vector<StepPiece> result;
+    for (const StepPiece& piece : BranchCutter(volume, std::move(found), lined, context).run()) {
+        for (StepPiece& own : cut_branches(piece.volume, lined, context)) result.push_back(std::move(own));
+    }
+    return result;
+}
+
 } // namespace
 
 bool has_branches(const OpenVolume& volume, const RunContext& context)
@@ -572,14 +594,8 @@ bool has_branches(const OpenVolume& volume, const RunContext& context)
 
 std::vector<StepPiece> cut_branches(const OpenVolume& volume, const RunContext& context)
 {
-    Branching found = find_mouths(volume, context);
-    if (found.mouths.empty()) return {{.volume = volume}};
-    if (!found.passed.empty()) return cut_branches(with_junctions_joined(volume, found, context), context);
-    std::vector<StepPiece> result;
-    for (const StepPiece& piece : BranchCutter(volume, std::move(found), context).run()) {
-        for (StepPiece& own : cut_branches(piece.volume, context)) result.push_back(std::move(own));
-    }
-    return result;
+    std::set<int> lined;
+    return cut_branches(volume, lined, context);
 }
 
 bool has_pieces(const OpenVolume& volume, const RunContext& context)

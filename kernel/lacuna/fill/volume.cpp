@@ -198,7 +198,8 @@ void note_joined(const topology::Model& whole, const std::vector<closure::StepPi
             if (face.origin == topology::Origin::given) kept.insert(face.tag);
     std::vector<FaceId> joined;
     for (const FaceId face : topology::all_faces(whole))
-        if (whole[face].origin == topology::Origin::given && !kept.contains(whole[face].tag))
+        if (whole[face].origin == topology::Origin::given && !whole[face].tube &&
+            !kept.contains(whole[face].tag))
             joined.push_back(face);
     if (joined.empty()) return;
     log_line(context, formatted("note: joined with the walls beside them, because their smooth edges meet in "

@@ -277,13 +277,19 @@ Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triang
     const Plane plane = plane_of(facets);
     Positions projected;
     for (const Vec3& point : facets.points) projected.push_back(to_plane(plane, point));
-    if (is_planar(facets, plane)) {
+    if (!options.disc && is_planar(facets, plane)) {
         flat.position = projected;
         judge(facets, boundary, flat);
         // Planar facets that fold over each other are unfolded like curved ones.
         if (!flat.folded) return flat;
     }
     check_disc(facets, boundary, twice, flat.used);
+    if (options.disc) {
+        flat.position = flat::convex(facets);
+        flat.map = FlatMap::disc;
+        judge(facets, boundary, flat);
+        return flat;
+    }
     choose_map(facets, boundary, options.settled, flat);
     align(flat.position, projected);
     return flat;

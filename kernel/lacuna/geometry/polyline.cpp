@@ -17,6 +17,18 @@ std::vector<double> arc_lengths(std::span<const Vec3> points)
 
 double length(std::span<const Vec3> points) { return points.empty() ? 0 : arc_lengths(points).back(); }
 
+Vec3 centre_of_ring(std::span<const Vec3> points)
+{
+    Vec3 sum = Vec3::Zero();
+    double length = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 &a = points[i], &b = points[(i + 1) % points.size()];
+        sum += (b - a).norm() * (a + b) / 2;
+        length += (b - a).norm();
+    }
+    return length > 0 ? Vec3(sum / length) : points.empty() ? Vec3(Vec3::Zero()) : points.front();
+}
+
 PolylinePlace place_at(std::span<const double> arc_lengths, double s)
 {
     const std::size_t count = arc_lengths.size();

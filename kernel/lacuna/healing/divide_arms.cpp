@@ -186,6 +186,7 @@ private:
         }
         of_others_.insert(of_others_.end(), line.begin(), line.end());
         tube.tag = static_cast<int>(model_.faces.size()) + 1;
+        tube.tube = true;
         model_[face_] = std::move(junction);
         model_.faces.push_back(std::move(tube));
         Edge edge;

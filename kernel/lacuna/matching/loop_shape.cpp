@@ -55,6 +55,7 @@ LoopShape shape_of(const Model& model, const Rim& rim, const std::set<EdgeId>& k
         for (std::size_t i = 0; i + 1 < chain.size(); ++i) shape.points.push_back(model.at(chain[i]));
     }
     shape.area = geometry::newell_vector(shape.points);
+    shape.centroid = geometry::centre_of_ring(shape.points);
     shape.points.push_back(shape.points.front());
     shape.arc = geometry::arc_lengths(shape.points);
     shape.length = shape.arc.back();
@@ -62,10 +63,6 @@ LoopShape shape_of(const Model& model, const Rim& rim, const std::set<EdgeId>& k
         shape.vertex_arc.push_back(shape.arc[first[u]]);
         shape.corner.push_back(is_corner(model, rim.uses, u));
     }
-    for (std::size_t i = 0; i + 1 < shape.points.size(); ++i) {
-        shape.centroid += (shape.arc[i + 1] - shape.arc[i]) * (shape.points[i] + shape.points[i + 1]) / 2;
-    }
-    shape.centroid /= shape.length > 0 ? shape.length : 1;
     return shape;
 }
 

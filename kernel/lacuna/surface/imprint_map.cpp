@@ -19,15 +19,22 @@ EndsMap::EndsMap(const OpenVolume& volume, std::span<const LinkingSurface> links
                  std::span<const ClosedPair> closed, std::span<const KnownLine> known)
     : volume_(volume)
 {
-    lay_source();
+    // The target's harmonic map may fold at concave places of the source's outline. It does not fold in a
+    // circle (Tutte 1963, Floater 1997), but there the distances along the rims and between the lines differ
+    // more from those in space.
+    lay_source(false);
+    if (one_to_one_) lay_target(links, closed, known);
+    if (one_to_one_) return;
+    lay_source(true);
     if (one_to_one_) lay_target(links, closed, known);
 }
 
-void EndsMap::lay_source()
+void EndsMap::lay_source(bool disc)
 {
     const Model& model = volume_.model;
     source_facets_ = facet_set(model, volume_.faces(Role::source));
-    const geometry::Flattened flat = geometry::flatten(model.points, source_facets_.triangles);
+    const geometry::Flattened flat = geometry::flatten(model.points, source_facets_.triangles,
+                                                       {.disc = disc});
     one_to_one_ = !flat.folded;
     source_.assign(model.points.size(), Vec2::Zero());
     for (std::size_t i = 0; i < flat.used.size(); ++i)
@@ -83,7 +90,7 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
     problem.triangles = triangles;
     problem.fix(fixed);
     const Eigen::MatrixXd places = geometry::solve_harmonic(problem);
-    target_.reserve(model.points.size());
+    target_.clear();
     for (Eigen::Index i = 0; i < places.rows(); ++i) target_.emplace_back(places(i, 0), places(i, 1));
     // A facet that has no area in space has no area in the plane either, and does not count as inverted.
     double extent = 0;

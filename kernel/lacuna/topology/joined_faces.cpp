@@ -183,6 +183,7 @@ Face joined_face(const Model& model, const std::vector<FaceId>& parts)
                              ? std::make_shared<JoinedSurface>(model, parts)
                              : nullptr;
     if (!alike) face.kind = exact ? "surface" : "discrete";
+    face.tube = std::ranges::all_of(parts, [&](FaceId part) { return model[part].tube; });
     face.surface = surface;
     face.triangles.clear();
     face.uv.clear();

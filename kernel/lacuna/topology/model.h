@@ -69,12 +69,12 @@ struct Face {
     std::string kind = "discrete";
     Origin origin = Origin::given;
     Geometry geometry = Geometry::given;
-
     std::vector<Triangle> triangles;     ///< model points, counter-clockwise, oriented as the face
     std::vector<std::array<Vec2, 3>> uv; ///< surface parameters at the corners; empty without `surface`
     std::shared_ptr<const geometry::ExactSurface> surface; ///< null if only facets are known
     std::vector<Quad> given_quads; ///< the mesh that was given with the face, model points; may be empty
     bool keeps_nodes = false;      ///< given as a mesh: its quads and the nodes of its rim are kept
+    bool tube = false;             ///< part of a face that was given with a smooth junction of tubes
 
     std::vector<Loop> loops; ///< derived from the triangles, see `with_loops()`; the longest first
 };

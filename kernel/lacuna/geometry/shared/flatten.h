@@ -16,11 +16,13 @@ enum class FlatMap {
     ring,      ///< a tube mapped to a ring, nearly conformal
     rigid,     ///< as rigid as possible
     injective, ///< least symmetric Dirichlet energy, no flipped triangles unless the first map has some
+    disc,      ///< harmonic, with a circle as outline
 };
 
 /// Options of `flatten()`.
 struct FlattenOptions {
     double settled = 1e-6; ///< relative decrease of the energy at which iterations stop
+    bool disc = false;     ///< map the outline to a circle, harmonically, whatever the distortion
 };
 
 /// Facets mapped to the plane.

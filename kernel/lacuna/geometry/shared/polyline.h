@@ -18,6 +18,10 @@ std::vector<double> arc_lengths(std::span<const Vec3> points);
 /// Length of a polyline; 0 for fewer than two points [model length].
 double length(std::span<const Vec3> points);
 
+/// Centroid of the closed polyline through points, the last of which is not the first. Unlike their mean, it
+/// does not depend on how densely they lie.
+Vec3 centre_of_ring(std::span<const Vec3> points);
+
 /// Estimated sag: the largest distance between the polyline and a smooth curve through its points [model
 /// length]. Each pair of neighbouring segments gives the estimate L · α / 8, where L is the length of the
 /// longer segment and α the angle between both; the result is the largest estimate. Angles above 90° are

@@ -45,7 +45,7 @@ public:
     [[nodiscard]] FacetPosition on_face(FaceId face, const Vec2& place) const;
 
 private:
-    void lay_source();
+    void lay_source(bool disc);
     void lay_target(std::span<const LinkingSurface> links, std::span<const ClosedPair> closed,
                     std::span<const KnownLine> known);
 
