@@ -269,6 +269,44 @@ BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]]):format(
     check.near(volumes[2], volumes[1], 0.01 * volumes[1])
   end
 end
+
+-- Chambers with ports to several sides whose outer ends are missing: boxes, vessels with a ledge, and balls.
+local chambers = {
+  box = "Box(1) = {-50, -40, -30, 100, 80, 60};",
+  vessel = "Cylinder(1) = {0, 0, -50, 0, 0, 100, 40};",
+  ball = "Sphere(1) = {0, 0, 0, 45};",
+}
+local ports = {
+  x = { 100, 0, 0, 15 }, w = { -100, 0, 0, 15 }, y = { 0, 90, 0, 12 }, v = { 0, -90, 0, 10 },
+  z = { 0, 0, 80, 12 },
+}
+for _, member in ipairs { { "box", "xz" }, { "box", "xyz" }, { "box", "xwz" }, { "box", "xwyvz" },
+  { "vessel", "xz" }, { "vessel", "xy" }, { "ball", "xwz" }, { "ball", "xwyz" } } do
+  local lines, open_at = { 'SetFactory("OpenCASCADE");', chambers[member[1]] }, {}
+  for port in member[2]:gmatch "." do
+    local x, y, z, radius = table.unpack(ports[port])
+    lines[#lines + 1] = ("Cylinder(%d) = {0, 0, 0, %d, %d, %d, %d};"):format(#lines, x, y, z, radius)
+    open_at[#open_at + 1] = { x, y, z }
+  end
+  lines[#lines + 1] = ("BooleanUnion(99) = { Volume{1}; Delete; }{ Volume{2:%d}; Delete; };"):format(
+    #lines - 1)
+  check.write(params.scratch .. "/chamber.geo", table.concat(lines, "\n") .. "\n")
+  local model = lacuna.load(params.scratch .. "/chamber.geo")
+  local faces = {}
+  for _, face in ipairs(model:faces()) do
+    local open = false
+    for _, place in ipairs(open_at) do
+      open = open or face.kind == "plane" and face == model:face { near = place, kind = "plane" }
+    end
+    if not open then faces[#faces + 1] = face end
+  end
+  check.equal(#faces + #open_at, #model:faces())
+  local mesh = model:open_volume({ faces = faces }):sweep { size = 7 }
+  local quality = mesh:quality()
+  check.that(quality.certified and mesh.tets == 0 and quality.min_scaled_jacobian > 0.25,
+    ("%s with ports %s: %.3f"):format(member[1], member[2], quality.min_scaled_jacobian))
+  check.near(quality.volume, mesh.fidelity.sealed_volume, 0.05 * quality.volume)
+end
 print(("%d meshed in %d arms, %d refused; %d of %d that turn from branch to branch meshed"):format(meshed,
   arms, refused, turned, turning))
 check.that(refused <= 0.1 * params.members)

@@ -533,4 +533,22 @@ BooleanDifference(7) = { Volume{3}; Delete; }{ Volume{6}; Delete; };]])
   check.that(all[1].volume > math.pi * 400 * 120)
 end
 
+-- Slots through a block that are narrower or wider at the mouth: all of the slot is the first cavity.
+for _, member in ipairs { { "T-slot", 24, 9, 14 }, { "stepped slot", 10, 12, 24 } } do
+  local word, low, step, high = table.unpack(member)
+  local file = params.scratch .. "/slot.geo"
+  check.write(file, ([[SetFactory("OpenCASCADE");
+    Box(1) = {0, -40, -40, 200, 80, 40};
+    Box(2) = {0, %g, -20, 200, %g, %g};
+    Box(3) = {0, %g, %g, 200, %g, %g};
+    BooleanDifference(9) = { Volume{1}; Delete; }{ Volume{2:3}; Delete; };]]):format(-low / 2, low, step,
+    -high / 2, step - 20, high, 20 - step))
+  local model = lacuna.load(file)
+  local exact = 200 * (low * step + high * (20 - step))
+  local first = model:cavities()[1]
+  check.near(first.volume, exact, 1e-6 * exact, word)
+  local mesh = model:open_volume({ faces = first.faces }):sweep { size = 6 }
+  check.near(mesh:quality().volume, exact, 1e-6 * exact, word)
+end
+
 check.done()

@@ -48,6 +48,7 @@ public:
         // Remove lines that are not mouths. The regions on both sides of such a line become one.
         for (bool again = true; again;) {
             find_regions();
+            while (join_hub()) find_regions();
             again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
             for (Mouth& mouth : result_.mouths) {
                 if (!mouth.fillet.valid() || result_.region[mouth.fillet.index()] != mouth.host) continue;
@@ -232,6 +233,44 @@ private:
             const std::size_t own = result_.region[model_.uses_of_edge(edges.front()).front().face.index()];
             result_.ends[own].push_back(geometry::mean_point(places(model_, edges)));
         }
+    }
+
+    /// Make one main body of a region without ends, such as the ball of a valve, and two tubes that leave it:
+    /// of those with ends, the two that are most opposite to each other.
+    /// @return  whether there is such a region, with three tubes or more; two mouths are removed
+    bool join_hub()
+    {
+        for (std::size_t hub = 0; hub < result_.faces.size(); ++hub) {
+            if (!result_.ends[hub].empty()) continue;
+            std::size_t count = 0;
+            std::vector<std::pair<std::size_t, Vec3>> tubes; // number of the mouth, direction from the hub
+            const Vec3 middle = centroid_of(model_, result_.faces[hub]);
+            for (std::size_t m = 0; m < result_.mouths.size(); ++m) {
+                const std::span<const FaceUse> users = model_.uses_of_edge(result_.mouths[m].edges.front());
+                const std::size_t a = result_.region[users[0].face.index()],
+                                  b = result_.region[users[1].face.index()];
+                if (a == b || (a != hub && b != hub)) continue;
+                ++count;
+                if (result_.ends[a == hub ? b : a].empty()) continue;
+                const std::vector<Vec3> rim = places(model_, result_.mouths[m].edges);
+                const Vec3 normal = geometry::newell_vector(rim).normalized();
+                tubes.emplace_back(m, normal.dot(geometry::centre_of_ring(rim) - middle) < 0 ? Vec3(-normal)
+                                                                                             : normal);
+            }
+            if (count < 3 || tubes.size() < 2) continue;
+            std::pair<std::size_t, std::size_t> best;
+            double least = 2;
+            for (std::size_t j = 1; j < tubes.size(); ++j)
+                for (std::size_t i = 0; i < j; ++i)
+                    if (const double dot = tubes[i].second.dot(tubes[j].second); dot < least) {
+                        least = dot;
+                        best = {tubes[i].first, tubes[j].first};
+                    }
+            result_.mouths.erase(result_.mouths.begin() + static_cast<std::ptrdiff_t>(best.second));
+            result_.mouths.erase(result_.mouths.begin() + static_cast<std::ptrdiff_t>(best.first));
+            return true;
+        }
+        return false;
     }
 
     /// Decide which side of a mouth is the main body. @return false if the line is not a mouth.

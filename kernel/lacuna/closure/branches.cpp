@@ -197,16 +197,22 @@ private:
         return tube;
     }
 
-    /// Set the main body's axis: the direction from end to end, without its component along the branch.
+    /// Set the main body's axis: the direction from end to end, without its component along the branch. A
+    /// body with steps has more than two ends; its axis is the normal of its source.
     void set_axis(const Mouth& mouth)
     {
         centre_ = geometry::centre_of_ring(rim_places(mouth));
         const Vec3 outward = way_out(mouth);
         const std::vector<Vec3>& ends = found_.ends[mouth.host];
-        const Vec3 way = ends.back() - ends.front();
+        Vec3 way = ends.back() - ends.front();
+        if (ends.size() != 2) {
+            way.setZero();
+            for (const FaceId face : found_.faces[mouth.host])
+                if (volume_.role[face.index()] == Role::source) way += face_area_vector(volume_.model, face);
+        }
         const Vec3 square = way - way.dot(outward) * outward;
         axis_ = square.norm() > 0 ? Vec3(square.normalized()) : Vec3(outward.unitOrthogonal());
-        if (ends.size() != 2)
+        if (ends.size() != 2 && !(square.norm() > kAlongAxis * way.norm()))
             refuse(mouth, formatted("the main body has {} ends, so its direction is ambiguous", ends.size()));
     }
 
@@ -463,7 +469,7 @@ private:
                 Loop loop{half};
                 loop.uses.push_back({dip, use_to(model, half.back()) != model[dip].from});
                 const std::string name = partition_name(model);
-                VoidFilling filling = fill(work, {loop}, nullptr, {name}, context_);
+                VoidFilling filling = fill(work, {loop}, nullptr, {.words = name, .is_cut = true}, context_);
                 filling.name = name;
                 partition.face = add_void_face(work, std::move(filling), Role::wall);
                 parted.partitions.push_back(partition);

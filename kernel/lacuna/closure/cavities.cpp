@@ -49,11 +49,17 @@ std::vector<Candidate> candidates(const Model& model, const RunContext& context)
     std::vector<Candidate> result;
     for (auto& [root, joined] : by_root) {
         std::ranges::sort(joined.faces);
+        joined.faces.erase(std::unique(joined.faces.begin(), joined.faces.end()), joined.faces.end());
         joined.mouths = rims(model, joined.faces).size();
         result.push_back(std::move(joined));
     }
     for (const Hollow& hollow : found) result.push_back({hollow.faces, hollow.mouths, hollow.volume});
-    std::ranges::stable_sort(result, {}, [](const Candidate& one) { return one.faces.front(); });
+    std::ranges::stable_sort(result, [](const Candidate& a, const Candidate& b) {
+        return a.faces.front() != b.faces.front() ? a.faces.front() < b.faces.front()
+                                                  : a.faces.size() > b.faces.size();
+    });
+    const auto twice = std::ranges::unique(result, {}, &Candidate::faces);
+    result.erase(twice.begin(), twice.end());
     return result;
 }
 

@@ -261,7 +261,8 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     };
     std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed, context);
     if (found.empty()) // the likeliest candidates cannot be sealed; less likely ones may be
-        found = voids(model, less_likely(model, faces, kMostSealed, seals, context), kMostSealed, context);
+        found = voids(model, less_likely(model, faces, {.most = kMostSealed}, seals, context), kMostSealed,
+                      context);
     auto flat = fill_free_loops(model, faces, Missing::flat, context);
     const bool dropped = prefer_flat(found, flat, context);
     const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });

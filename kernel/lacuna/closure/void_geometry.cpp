@@ -235,7 +235,8 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
         if (auto patch = fill_round_patch(model, loops.front(), context)) return std::move(*patch);
     const bool has_sides = !sides.empty() && (!flat || crossing);
     const bool bent = !flat && !has_sides;
-    auto told = bent && !crossing ? fill_as_rim_tells(model, loops, newell, context) : std::nullopt;
+    auto told = bent && !crossing && !face.is_cut ? fill_as_rim_tells(model, loops, newell, context)
+                                                  : std::nullopt;
     VoidFilling result;
     if (has_sides) {
         try {

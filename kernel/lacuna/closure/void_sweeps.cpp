@@ -3,11 +3,16 @@
 
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
+#include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
+#include <lacuna/closure/shared/branches.h>
+#include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/limits.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/joined_faces.h>
 
 #include <algorithm>
 #include <functional>
@@ -30,6 +35,46 @@ bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context
                return has_steps(volume, context) ? cut_steps(volume, context) : std::vector<StepPiece>();
            })
         .has_value();
+}
+
+/// Make one wall of the walls that meet smoothly, such as a bore and the void wall that continues it.
+OpenVolume with_smooth_walls_joined(OpenVolume volume, const RunContext& context)
+{
+    const std::vector<double> turns = concave_turns(volume, context);
+    geometry::UnionFind joined(volume.model.faces.size());
+    for (std::size_t e = 0; e < turns.size(); ++e) {
+        const std::span<const FaceUse> uses = volume.model.uses_of_edge(EdgeId(e));
+        const bool walls = std::ranges::all_of(
+            uses, [&](const FaceUse& use) { return volume.role[use.face.index()] == Role::wall; });
+        if (walls && uses.size() == 2 && std::abs(turns[e]) < kCreaseAngle / 2)
+            joined.unite_least(uses[0].face.index(), uses[1].face.index());
+    }
+    join_faces(volume, std::move(joined), context);
+    return volume;
+}
+
+/// Whether the walls of all pieces of a closed skin with these roles run between their ends.
+bool has_pieces_with_ends(const Model& skin, const Roles& roles, const RunContext& context)
+{
+    OpenVolume volume{skin, std::vector<Role>(skin.faces.size()), std::nullopt};
+    set_ends(volume, roles);
+    const auto pieces = unless_refused([&] { return cut_into_pieces(volume, context); });
+    return pieces && std::ranges::all_of(*pieces, [&](const StepPiece& piece) {
+               return walls_run_between_ends(with_smooth_walls_joined(piece.volume, context));
+           });
+}
+
+/// If no likely sweep of a closed skin suits it, add less likely ones that do, after the others. Branches may
+/// leave the skin where the likely ones have their ends.
+void add_sweeps_with_branches(const Model& skin, std::vector<RoleCandidate>& sweeps,
+                              const RunContext& context)
+{
+    const auto suits = [&](const RoleCandidate& way) {
+        return has_pieces_with_ends(skin, way.roles, context);
+    };
+    if (sweeps.empty() || std::ranges::any_of(sweeps, suits)) return;
+    for (RoleCandidate& way : less_likely(skin, all_faces(skin), {.branches = true}, suits, context))
+        if (suits(way)) sweeps.push_back(std::move(way));
 }
 
 /// The given faces among some faces of a sealed volume.
@@ -131,19 +176,20 @@ std::vector<RoleCandidate> best_sweeps(const Model& skin, const RunContext& cont
     const bool any = !all.empty();
     std::erase_if(all, fails);
     if (any && all.empty()) { // the likeliest cannot be swept; less likely ones may
-        all = less_likely(skin, all_faces(skin), RoleOptions{}.most, std::not_fn(fails), context);
+        all = less_likely(skin, all_faces(skin), {}, std::not_fn(fails), context);
         std::erase_if(all, fails);
     }
     std::ranges::stable_sort(all, {}, &RoleCandidate::irregular);
     return all;
 }
 
-std::vector<RoleCandidate> less_likely(const Model& model, const std::vector<FaceId>& faces, std::size_t most,
+std::vector<RoleCandidate> less_likely(const Model& model, const std::vector<FaceId>& faces,
+                                       RoleOptions options,
                                        const std::function<bool(const RoleCandidate&)>& suits,
                                        const RunContext& context)
 {
-    const RoleOptions far{kInfinity, most};
-    const std::vector<RoleCandidate> all = role_candidates(model, faces, far, context);
+    options.margin = kInfinity;
+    const std::vector<RoleCandidate> all = role_candidates(model, faces, options, context);
     const auto first = std::ranges::find_if(all, suits);
     return {first, std::find_if(first, all.end(), [&](const RoleCandidate& candidate) {
                 return candidate.cost > first->cost + RoleOptions{}.margin;
@@ -220,7 +266,10 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     reading.ways = std::max<std::size_t>(1, found.ways.size());
     std::vector<RoleCandidate> sweeps;
     // Class I: both ends and no walls are given, so no other sweep direction is tried.
-    if (first.value != VolumeClass::I) sweeps = best_sweeps(found.sealed.volume.model, context);
+    if (first.value != VolumeClass::I) {
+        sweeps = best_sweeps(found.sealed.volume.model, context);
+        add_sweeps_with_branches(found.sealed.volume.model, sweeps, context);
+    }
     if (sweeps.empty() && !found.filled.empty()) sweeps.push_back(way_of(found.sealed.volume));
     if (sweeps.empty()) {
         take_open(model, first, reading, context);

@@ -95,9 +95,11 @@ std::vector<double> parted_at_flat_faces(const Model& model, std::vector<double>
 class Readings {
 public:
     /// @param flat_alone  whether a flat face with smooth neighbours is a patch of its own
-    Readings(const Model& model, bool flat_alone, const RunContext& context)
+    /// @param branches    as in `RoleOptions`
+    Readings(const Model& model, bool flat_alone, bool branches, const RunContext& context)
         : model_(model),
           flat_alone_(flat_alone),
+          branches_(branches),
           context_(context),
           angle_(angles_across(model, context)),
           map_{smooth_patches(model, flat_alone ? parted_at_flat_faces(model, angle_) : angle_, context),
@@ -345,9 +347,10 @@ private:
                                            [&](VertexId v) { return vertex_seen_.has(v.index()); });
             };
             if (std::ranges::any_of(ahead, touches)) continue; // layers would have no height there
-            // All other faces must be parallel to the sweep: void faces below the steps would cut them.
+            // All other faces must be parallel to the sweep, but for branches, which are cut off first: void
+            // faces below the steps would cut them.
             const double leaning = std::max(0.0, way.dot(whole * way) - ends) / std::max(area - ends, 1e-300);
-            if (!(leaning < kStraight)) continue;
+            if (!branches_ && !(leaning < kStraight)) continue;
             with_steps_.push_back({largest(same), largest(ahead), std::sqrt(leaning), stepped_.size()});
             stepped_.push_back({same, ahead});
         }
@@ -477,7 +480,7 @@ private:
     }
 
     const Model& model_;
-    bool flat_alone_;
+    bool flat_alone_, branches_;
     const RunContext& context_;
     std::vector<double> angle_; ///< angle between the two faces at each edge [degrees]
     std::vector<EdgeId> sharp_; ///< edges with at least the crease angle
@@ -510,7 +513,7 @@ namespace {
 std::vector<RoleCandidate> candidates_of(const Model& part, bool flat_alone, const RoleOptions& options,
                                          const RunContext& context)
 {
-    Readings readings(part, flat_alone, context);
+    Readings readings(part, flat_alone, options.branches, context);
     std::vector<Reading> held;
     double least = kInfinity;
     // The cost of the ends is a lower bound: the walls only add to it.

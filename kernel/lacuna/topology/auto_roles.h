@@ -26,6 +26,7 @@ struct RoleOptions {
     /// The cheapest candidate is unambiguous if the next one costs at least this much more. Rule of thumb.
     double margin = 0.15;
     std::size_t most = 1000; ///< number of candidates that are checked in full, the cheapest first
+    bool branches = false; ///< whether walls beside ends at several heights may lean, as those of branches do
 };
 
 /// Find candidates for the roles of `faces` (source, target, walls): the cheapest one and those that cost at

@@ -7,6 +7,7 @@
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/facet_sag.h>
 #include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -131,6 +132,42 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
     return result;
 }
 
+/// Groups of faces, and the groups that share an edge with each.
+struct FaceGroups {
+    std::map<std::size_t, std::vector<FaceId>> faces;
+    std::map<std::size_t, std::set<std::size_t>> beside;
+    std::vector<Triangle> skin;          ///< facets of all groups
+    std::vector<std::size_t> group_of{}; ///< by facet
+};
+
+/// The faces of a hollow together with those that enclose its mouth, such as the neck of a T-slot: groups
+/// beside it of which a face looks at the hollow or at another group beside it.
+/// @param tree  of the groups' facets
+std::vector<FaceId> with_neck(const Model& model, const FaceGroups& groups, std::size_t own,
+                              const geometry::FacetTree& tree)
+{
+    std::vector<FaceId> result = groups.faces.at(own);
+    const auto found = groups.beside.find(own);
+    if (found == groups.beside.end()) return result;
+    const std::set<std::size_t>& beside = found->second;
+    const auto looks_inside = [&](FaceId face, std::size_t group) {
+        const std::vector<Triangle>& facets = model[face].triangles;
+        const Triangle& t = *std::ranges::max_element(
+            facets, {}, [&](const Triangle& f) { return facet_area_vector(model, f).squaredNorm(); });
+        const Vec3 out = facet_area_vector(model, t).stableNormalized();
+        const auto hit = tree.first_along(facet_centre(model, t) + model.tolerance * out, out);
+        if (hit.triangle < 0) return false;
+        const std::size_t seen = groups.group_of[index(hit.triangle)];
+        return seen != group && (seen == own || beside.contains(seen));
+    };
+    for (const std::size_t group : beside) {
+        const std::vector<FaceId>& faces = groups.faces.at(group);
+        if (std::ranges::any_of(faces, [&](FaceId face) { return looks_inside(face, group); }))
+            result.insert(result.end(), faces.begin(), faces.end());
+    }
+    return result;
+}
+
 } // namespace
 
 std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
@@ -179,21 +216,45 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
         if (uses.size() == 2 && fold[e] < kCreaseAngle)
             hang.unite_least(uses[0].face.index(), uses[1].face.index());
     }
-    std::map<std::size_t, std::vector<FaceId>> by_root;
+    FaceGroups groups;
     for (const std::vector<FaceId>& shell : shells)
-        for (const FaceId face : shell) by_root[hang.find(face.index())].push_back(face);
+        for (const FaceId face : shell) {
+            const std::size_t group = hang.find(face.index());
+            groups.faces[group].push_back(face);
+            std::ranges::copy(model[face].triangles, std::back_inserter(groups.skin));
+            groups.group_of.resize(groups.skin.size(), group);
+        }
+    for (std::size_t e = 0; e < fold.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() != 2) continue;
+        const std::size_t a = hang.find(uses[0].face.index()), b = hang.find(uses[1].face.index());
+        if (a == b || !groups.faces.contains(a) || !groups.faces.contains(b)) continue;
+        groups.beside[a].insert(b);
+        groups.beside[b].insert(a);
+    }
+    const geometry::FacetTree tree(model.points, groups.skin, context);
     std::vector<Hollow> found;
-    for (auto& [root, faces] : by_root) {
-        check_cancelled(context);
+    const auto take = [&](std::vector<FaceId> faces) {
         std::sort(faces.begin(), faces.end());
         const bool flat = std::all_of(faces.begin(), faces.end(),
                                       [&](FaceId face) { return model[face].kind == "plane"; });
         const double volume = -volume_of_cones(model, faces, centroid_of(model, faces));
-        if ((flat && faces.size() < 3) || !(volume > 0)) continue;
+        if ((flat && faces.size() < 3) || !(volume > 0)) return false;
         const std::size_t mouths = rims(model, faces).size();
         for (FaceId& face : faces) face = outer[face.index()];
         found.push_back({std::move(faces), mouths, volume});
+        return true;
+    };
+    for (const auto& [root, faces] : groups.faces) {
+        check_cancelled(context);
+        if (!take(faces)) continue;
+        const std::vector<FaceId> wider = with_neck(model, groups, root, tree);
+        if (wider.size() > faces.size()) take(wider);
     }
+    std::ranges::stable_sort(found, [](const Hollow& a, const Hollow& b) {
+        return a.faces.front() != b.faces.front() ? a.faces.front() < b.faces.front()
+                                                  : a.faces.size() > b.faces.size();
+    });
     return found;
 }
 

@@ -17,9 +17,9 @@ std::vector<topology::RoleCandidate> best_sweeps(const topology::Model& skin, co
 /// Search the unlikely candidates too.
 /// @return  the first one for which `suits` is true, followed by those about as likely, for which `suits` is
 ///         not called; empty if none suits.
-/// @param most  number of candidates that are checked in full
+/// @param options  their margin does not count
 std::vector<topology::RoleCandidate> less_likely(
-    const topology::Model& model, const std::vector<FaceId>& faces, std::size_t most,
+    const topology::Model& model, const std::vector<FaceId>& faces, topology::RoleOptions options,
     const std::function<bool(const topology::RoleCandidate&)>& suits, const RunContext& context);
 
 /// The class of the open volume that the faces named in `roles` form without void faces.

@@ -15,6 +15,7 @@ namespace lacuna::closure {
 struct Subject {
     std::string words;
     std::vector<NamedEntity> entity{};
+    bool is_cut = false; ///< inside the volume: its rim tells nothing about its surface
 };
 
 /// Facets of a void face, not yet in the model.

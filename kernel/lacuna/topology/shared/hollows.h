@@ -30,8 +30,9 @@ struct Hollow {
 /// The hollows of closed skins. Hollow: a set of faces that are connected over concave or smooth edges, and
 /// that face the space between them. A skin inside another skin is one hollow, whatever its orientation: it
 /// surrounds a void in the solid. Outer skins as a whole and skins with free edges are not hollows. Hollows
-/// that share a whole rim, such as a bore and its counterbore, are separate.
-/// @return in the order of their first faces; empty if the faces cannot be oriented.
+/// that share a whole rim, such as a bore and its counterbore, are separate. A hollow with faces beside it
+/// that enclose its mouth, such as the neck of a T-slot, is listed with these faces and without them.
+/// @return in the order of their first faces, the largest first; empty if the faces cannot be oriented.
 /// @throw Cancelled
 /// @note  Near linear in facets.
 std::vector<Hollow> hollows(const Model& model, const RunContext& context = {});
