@@ -36,7 +36,7 @@ def fill(*, source=None, target=None, walls=None, faces=None, name="volume", kee
     options: of Volume.sweep
 
     Returns the tag of the new volume. Its skin is discrete surfaces in the groups `source`, `target`,
-    `wall:<surface>` and `void:<n>`. Nodes of quads that stay are those of the surfaces.
+    `wall:<surface>`, `face:<surface>` of an end, and `void:<n>`. Nodes of quads that stay are those of the surfaces.
     """
     gmsh = _module("gmsh", "python3-gmsh")
     roles = {role: _tags(role, tags) for role, tags in zip(_ROLES, (source, target, walls, faces))
@@ -143,9 +143,9 @@ def _add(gmsh, mesh, nodes, surface_of):
             element += len(of_kind)
             gmsh.model.mesh.addElementsByType(entity, kind, list(numbers), [renamed[tag] for tag in ends])
         for group in groups:
-            role, _, tag = group.partition("wall:")
-            if not role and tag.isdigit():
-                group = f"wall:{surface_of[int(tag)]}"
+            kind, _, tag = group.partition(":")
+            if kind in ("wall", "face") and tag.isdigit():
+                group = f"{kind}:{surface_of[int(tag)]}"
             groups_of.setdefault((dim, group), []).append(entity)
     for (dim, group), entities in groups_of.items():
         made = gmsh.model.addPhysicalGroup(dim, entities)

@@ -56,14 +56,11 @@ std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume)
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
         const Face& face = volume.model.faces[f];
         const bool made = face.origin == Origin::made_void;
-        const std::string own = formatted("{}:{}", made ? "void" : "wall", face.tag);
+        const Role role = volume.role[f];
         std::vector<std::string>& of = groups.emplace_back();
-        if (volume.role[f] == Role::wall) {
-            of.push_back(own);
-        } else {
-            of.emplace_back((volume.role[f] == Role::source) != volume.turned_round ? "source" : "target");
-            if (made) of.push_back(own);
-        }
+        if (role != Role::wall)
+            of.emplace_back((role == Role::source) != volume.turned_round ? "source" : "target");
+        of.push_back(formatted("{}:{}", made ? "void" : role == Role::wall ? "wall" : "face", face.tag));
         generated.insert(of.begin(), of.end());
     }
     const std::string of_all = name_of_all(volume);
@@ -93,8 +90,8 @@ bool is_role_group(std::string_view group)
 {
     const std::string word = lower(std::string(group));
     if (word == "source" || word == "target") return true;
-    return (word.starts_with("wall:") || word.starts_with("void:")) && word.size() > 5 &&
-           word.find_first_not_of("0123456789", 5) == std::string::npos;
+    const bool of_face = word.starts_with("wall:") || word.starts_with("void:") || word.starts_with("face:");
+    return of_face && word.size() > 5 && word.find_first_not_of("0123456789", 5) == std::string::npos;
 }
 
 std::vector<std::string> groups_in_assembly(const std::string& volume, const std::vector<std::string>& groups)

@@ -95,8 +95,9 @@ class Faces:
                       lambda found: re.sub(r"\d+", name, found[1]), text)
 
     def named_wall(self, group):
-        """`wall:3` with FreeCAD's number of the face."""
-        return re.sub(r"^wall:(\d+)$", lambda found: f"wall:{self._numbers.get(int(found[1]), found[1])}", group)
+        """`wall:3` or `face:3` with FreeCAD's number of the face."""
+        return re.sub(r"^(wall|face):(\d+)$",
+                      lambda found: f"{found[1]}:{self._numbers.get(int(found[2]), found[2])}", group)
 
     def _tag(self, number):
         if number not in self._tags:

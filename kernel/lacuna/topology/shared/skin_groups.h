@@ -9,8 +9,8 @@
 
 namespace lacuna::topology {
 
-/// The groups of each face's quads in output files: a role group (`source`, `target`, `wall:12` or
-/// `void:12`), and the face's own name if it has one. File formats that allow one group per quad use the
+/// The groups of each face's quads in output files: role groups (`source` or `target`, and `wall:12`,
+/// `face:12` for a given face of an end, or `void:12`), and the face's own name if it has one. File formats that allow one group per quad use the
 /// first group.
 ///
 /// The first group is the face's name, if the user or the input gave it one. The role group comes first if
@@ -26,7 +26,7 @@ std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume);
 /// Whether a group belongs to a void face: `void:3`, or `fluid:void:3` in an assembly.
 bool is_void_group(std::string_view group);
 
-/// Whether a group is a role group: `source`, `target`, `wall:12` or `void:12`, in any case.
+/// Whether a group is a role group: `source`, `target`, `wall:12`, `face:12` or `void:12`, in any case.
 bool is_role_group(std::string_view group);
 
 /// The groups of a face of one volume among several. Role groups get the volume's name as a prefix; other
