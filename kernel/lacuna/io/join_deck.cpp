@@ -265,9 +265,9 @@ private:
                                "and fallback = \"mixed\""));
             if (given == 0) throw InvalidInput(why.remedy("load the deck with keep_mesh = true"));
             throw InvalidInput(
-                why.remedy("sweep with quads = \"auto\" or \"keep\"; where the quads of both ends differ "
-                           "only the source keeps its own: write the mesh without 'with' and tie its "
-                           "other end to the deck"));
+                why.remedy("sweep with quads = \"auto\" or \"keep\", and with wedges = true if a rim has an "
+                           "odd number of sides; if the quads of both ends differ, only the source keeps "
+                           "its own: write without 'with' and tie the other end"));
         }
     }
 

@@ -27,6 +27,7 @@
 #include <lacuna/sweep/shared/layers.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -256,7 +257,7 @@ private:
             *split_, links, size_, style_of(options_, !demands.rows.empty()), sizes_.sizing,
             imprint_ ? surface::image_lengths(*imprint_) : std::map<EdgeId, double>{}, options_.wedges,
             demands, context_));
-        for (const std::string& note : seeds_->notes) result_.report.push_back("given: " + note);
+        std::ranges::copy(seeds_->notes, std::back_inserter(result_.notes));
         result_.defaults = sizes_in_words(
             volume_, *split_, sizes_, *seeds_, options_,
             {static_cast<int>(planned_.heights.size()) - 1, !given_.heights.empty(), planned_.by_bends});

@@ -10,8 +10,8 @@
 namespace lacuna::topology {
 
 /// The groups of each face's quads in output files: role groups (`source` or `target`, and `wall:12`,
-/// `face:12` for a given face of an end, or `void:12`), and the face's own name if it has one. File formats that allow one group per quad use the
-/// first group.
+/// `face:12` for a given face of an end, or `void:12`), and the face's own name if it has one. File formats
+/// that allow one group per quad use the first group.
 ///
 /// The first group is the face's name, if the user or the input gave it one. The role group comes first if
 /// there is no name, or if the name does not identify the face:
