@@ -49,7 +49,7 @@ bool is_fairly_mapped(const SeedTask& task, FaceId face, const MappedFace& mappe
 
 void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
 {
-    if (task.style == QuadStyle::free || seeds.kept.contains(face)) return;
+    if (task.style == QuadStyle::free || task.style == QuadStyle::rows || seeds.kept.contains(face)) return;
     if (is_tube(task.model, face)) {
         SidePair loops;
         for (const std::size_t l : {0, 1})

@@ -37,8 +37,8 @@ bool is_settled(const SeedTask& task, const FaceGrids& grids, const std::set<Edg
 void fit_grid(const SeedTask& task, const FaceGrids& grids, FaceId face, std::set<EdgeId>& settled,
               Seeds& seeds, const RunContext& context)
 {
-    if (task.style != QuadStyle::automatic || (task.sizing.gap > 0 && !task.sizing.counts_across) ||
-        !is_free(grids, seeds, face))
+    const bool patterns = task.style == QuadStyle::automatic || task.style == QuadStyle::rows;
+    if (!patterns || (task.sizing.gap > 0 && !task.sizing.counts_across) || !is_free(grids, seeds, face))
         return;
     const Vec3 normal = face_area_vector(task.model, face).stableNormalized();
     if (!faces_one_way(task.model, face, normal)) return;

@@ -114,8 +114,8 @@ surface::QuadStyle style_of(const SweepOptions& options, bool rows_along_walls)
 {
     if (options.quads == Quads::mapped) return surface::QuadStyle::mapped;
     if (options.quads == Quads::keep) return surface::QuadStyle::kept;
-    const bool chooses = options.quads == Quads::automatic && options.rows == 0 && !rows_along_walls;
-    return chooses ? surface::QuadStyle::automatic : surface::QuadStyle::free;
+    if (options.quads != Quads::automatic) return surface::QuadStyle::free;
+    return options.rows == 0 && !rows_along_walls ? surface::QuadStyle::automatic : surface::QuadStyle::rows;
 }
 
 quads::PlanarQuadMesher mesher_of(const SweepOptions& options, const SourceSize& size)
