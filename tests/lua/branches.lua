@@ -275,13 +275,16 @@ local chambers = {
   box = "Box(1) = {-50, -40, -30, 100, 80, 60};",
   vessel = "Cylinder(1) = {0, 0, -50, 0, 0, 100, 40};",
   ball = "Sphere(1) = {0, 0, 0, 45};",
+  drilled = "Cylinder(98) = {0, 0, -40, 0, 0, 80, 30}; Cylinder(97) = {0, 0, -80, 0, 0, 40, 16};\n" ..
+    "Cone(96) = {0, 0, -80, 0, 0, -9.2, 16, 0};\n" ..
+    "BooleanUnion(1) = { Volume{98}; Delete; }{ Volume{96:97}; Delete; };",
 }
 local ports = {
   x = { 100, 0, 0, 15 }, w = { -100, 0, 0, 15 }, y = { 0, 90, 0, 12 }, v = { 0, -90, 0, 10 },
   z = { 0, 0, 80, 12 },
 }
 for _, member in ipairs { { "box", "xz" }, { "box", "xyz" }, { "box", "xwz" }, { "box", "xwyvz" },
-  { "vessel", "xz" }, { "vessel", "xy" }, { "ball", "xwz" }, { "ball", "xwyz" } } do
+  { "vessel", "xz" }, { "vessel", "xy" }, { "ball", "xwz" }, { "ball", "xwyz" }, { "drilled", "xz" } } do
   local lines, open_at = { 'SetFactory("OpenCASCADE");', chambers[member[1]] }, {}
   for port in member[2]:gmatch "." do
     local x, y, z, radius = table.unpack(ports[port])

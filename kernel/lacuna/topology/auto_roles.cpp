@@ -311,13 +311,17 @@ private:
     }
 
     /// Find the candidates with ends at several heights: one end consists of all flat patches that face one
-    /// way, the other of all flat patches that face the opposite way. The two ends together have at least
-    /// three patches. If one end is a single patch, it is the source.
+    /// way, the other of all flat patches that face the opposite way; with branches, caps are flat as well.
+    /// The two ends together have at least three patches. If one end is a single patch, it is the source.
     void find_stepped()
     {
         std::vector<std::size_t> flat;
         for (std::size_t p = 0; p < map_.patches.size(); ++p) {
-            if (map_.patches[p].flatness > 1 - kFlatShare && !map_.patches[p].rims.empty()) flat.push_back(p);
+            // The tip of a drilled hole is an end of it as well.
+            const bool cap = branches_ && map_.patches[p].rims.size() == 1 &&
+                             map_.patches[p].flatness > kContinues;
+            if ((cap || map_.patches[p].flatness > 1 - kFlatShare) && !map_.patches[p].rims.empty())
+                flat.push_back(p);
         }
         Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
         double area = 0;
