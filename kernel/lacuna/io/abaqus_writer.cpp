@@ -119,13 +119,8 @@ private:
     {
         const auto put = [](std::size_t, DeckTag tag, const Vec3& point, char* out) {
             out = put_text(out, tag);
-            for (const double x : point) {
-                *out++ = ',';
-                *out++ = ' ';
-                out = put_real(out, x, kWidth);
-            }
-            *out++ = '\n';
-            return out;
+            for (const double x : point) out = put_real(put_text(out, ", "), x, kWidth);
+            return put_text(out, "\n");
         };
         file_.sections.push_back(
             section_of_points("*NODE\n", view_, kNumberBytes + 3 * (kWidth + 2) + 1, put));
@@ -216,12 +211,8 @@ private:
             const std::array<Vec3, 3> axes = (*view.frames)[b][i].material();
             out = put_text(out, tag);
             for (const std::size_t a : {std::size_t(0), std::size_t(1)})
-                for (const double x : axes[a]) {
-                    *out++ = ',';
-                    *out++ = ' ';
-                    out = put_real(out, x, kWidth);
-                }
-            *out++ = '\n';
+                for (const double x : axes[a]) out = put_real(put_text(out, ", "), x, kWidth);
+            out = put_text(out, "\n");
         });
         return out;
     }
@@ -452,13 +443,10 @@ private:
                              std::size_t count, bool brick, char* out)
     {
         out = put_text(out, tag);
-        for (std::size_t k = 0; k < count; ++k) {
-            *out++ = ',';
-            *out++ = (k + 1) % kPerLine == 0 ? '\n' : ' ';
-            out = put_text(out, view.point_tags[index(nodes[brick ? kMergedBrick[k] : k])]);
-        }
-        *out++ = '\n';
-        return out;
+        for (std::size_t k = 0; k < count; ++k)
+            out = put_text(out, (k + 1) % kPerLine == 0 ? ",\n" : ", ",
+                           view.point_tags[index(nodes[brick ? kMergedBrick[k] : k])]);
+        return put_text(out, "\n");
     }
 
     void add_set(std::size_t s)
@@ -477,11 +465,7 @@ private:
         }
         const std::string word = set.kind == mesh::SetKind::nodes ? "NSET" : "ELSET";
         const auto put = [count = set.count](std::size_t i, DeckTag tag, char* out) {
-            out = put_text(out, tag);
-            const bool last = (i + 1) % kPerLine == 0 || i + 1 == count;
-            *out++ = last ? '\n' : ',';
-            if (!last) *out++ = ' ';
-            return out;
+            return put_text(out, tag, (i + 1) % kPerLine == 0 || i + 1 == count ? "\n" : ", ");
         };
         file_.sections.push_back(section_of_members("*" + word + ", " + word + "=" + names_[s] + "\n", view_,
                                                     s, kNumberBytes + 2, put));
@@ -489,12 +473,8 @@ private:
 
     static char* put_side(const DeckSide& side, bool of_shell, char* out)
     {
-        out = put_text(out, side.element);
-        if (side.side < 1) return put_words(out, side.side == 0 ? ", SPOS\n" : ", SNEG\n");
-        out = put_words(out, of_shell ? ", E" : ", S");
-        out = put_text(out, side.side);
-        *out++ = '\n';
-        return out;
+        if (side.side < 1) return put_text(out, side.element, side.side == 0 ? ", SPOS\n" : ", SNEG\n");
+        return put_text(out, side.element, of_shell ? ", E" : ", S", side.side, "\n");
     }
 
     View view_;

@@ -76,9 +76,7 @@ private:
                                 {text, static_cast<std::size_t>(put_real(text, x, kLargeCardField) - text)},
                                 kLargeCardField);
             }
-            out = put_words(out, text_of(more, p));
-            *out++ = '\n';
-            return out;
+            return put_text(out, text_of(more, p), "\n");
         };
         file_.sections.push_back(
             section_of_points("*NODE" + end_, view_, 3 * (kCardField + kLargeCardField) + 1, put));
@@ -112,8 +110,7 @@ private:
                 }
                 if (own.size() == 3) put_node(2);
             }
-            *out++ = '\n';
-            return out;
+            return put_text(out, "\n");
         };
         file_.sections.push_back(section_of_cells(view_, b, 24 * kCardField, put));
         for (const auto& [end, region] : block.regions)

@@ -113,11 +113,7 @@ std::vector<Section> stl_bytes(const Skin& skin)
 /// Write coordinates, each after a blank.
 char* put_point(char* out, const Vec3& point)
 {
-    for (const double value : point) {
-        *out++ = ' ';
-        out = put_text(out, value);
-    }
-    return out;
+    return put_text(out, " ", point[0], " ", point[1], " ", point[2]);
 }
 
 std::vector<Section> stl_text(const Skin& skin)
@@ -125,15 +121,11 @@ std::vector<Section> stl_text(const Skin& skin)
     constexpr std::size_t kWords = 100; // bytes of the words around a facet's numbers
     return {{"solid volume\n", skin.triangles.size(), kWords + 12 * kNumberBytes,
              each([&skin](std::size_t i, char* out) {
-                 out = put_words(out, "facet normal");
-                 out = put_point(out, normal_of(skin, skin.triangles[i]));
-                 out = put_words(out, "\nouter loop\n");
-                 for (const Index p : skin.triangles[i]) {
-                     out = put_words(out, "vertex");
-                     out = put_point(out, skin.points[index(p)]);
-                     *out++ = '\n';
-                 }
-                 return put_words(out, "endloop\nendfacet\n");
+                 out = put_point(put_text(out, "facet normal"), normal_of(skin, skin.triangles[i]));
+                 out = put_text(out, "\nouter loop\n");
+                 for (const Index p : skin.triangles[i])
+                     out = put_text(put_point(put_text(out, "vertex"), skin.points[index(p)]), "\n");
+                 return put_text(out, "endloop\nendfacet\n");
              })},
             {"endsolid volume\n", 0, 0, {}}};
 }
@@ -164,22 +156,14 @@ std::vector<Section> obj_text(const OpenVolume& volume, const Skin& skin)
     const std::vector<std::vector<std::string>> groups = skin_groups(volume);
     std::vector<Section> sections{
         {{}, skin.points.size(), 3 * kNumberBytes + 2, each([&skin](std::size_t i, char* out) {
-             *out++ = 'v';
-             out = put_point(out, skin.points[i]);
-             *out++ = '\n';
-             return out;
+             return put_text(put_point(put_text(out, "v"), skin.points[i]), "\n");
          })}};
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
         const std::size_t first = skin.start[f];
         sections.push_back({"g" + obj_groups(volume, groups[f], f) + "\n", skin.start[f + 1] - first,
                             3 * kNumberBytes + 2, each([&skin, first](std::size_t i, char* out) {
-                                *out++ = 'f';
-                                for (const Index p : skin.triangles[first + i]) {
-                                    *out++ = ' ';
-                                    out = put_text(out, static_cast<long long>(p) + 1);
-                                }
-                                *out++ = '\n';
-                                return out;
+                                const auto [a, b, c] = skin.triangles[first + i];
+                                return put_text(out, "f ", a + 1LL, " ", b + 1LL, " ", c + 1LL, "\n");
                             })});
     }
     return sections;

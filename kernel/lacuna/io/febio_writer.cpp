@@ -79,13 +79,8 @@ public:
 private:
     static char* put_node(std::size_t, DeckTag tag, const Vec3& point, char* out)
     {
-        out = put_words(out, "      <node id=\"");
-        out = put_words(put_text(out, tag), "\">");
-        for (const Index axis : {0, 1, 2}) {
-            if (axis > 0) *out++ = ',';
-            out = put_text(out, point[axis]);
-        }
-        return put_words(out, "</node>\n");
+        return put_text(out, "      <node id=\"", tag, "\">", point[0], ",", point[1], ",", point[2],
+                        "</node>\n");
     }
 
     /// Add the elements of one shape and region: a part and its domain.
@@ -96,12 +91,10 @@ private:
         if (word.empty()) refuse_element(block, "FEBio", "there is no such element");
         const auto put = [view = view_, shape = block.shape](DeckTag tag, std::span<const Index> nodes,
                                                              char* out) {
-            out = put_words(put_text(put_words(out, "      <elem id=\""), tag), "\">");
-            for (std::size_t k = 0; k < nodes.size(); ++k) {
-                if (k > 0) *out++ = ',';
-                out = put_text(out, view->point_tags[index(nodes[place_of(shape, k)])]);
-            }
-            return put_words(out, "</elem>\n");
+            out = put_text(out, "      <elem id=\"", tag, "\">");
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+                out = put_text(out, k > 0 ? "," : "", view->point_tags[index(nodes[place_of(shape, k)])]);
+            return put_text(out, "</elem>\n");
         };
         for (auto& [region, elements] : cells_by_region(block)) {
             const std::string material = region < 0 ? "elements" : region_name(view_->regions[index(region)]);
@@ -130,23 +123,12 @@ private:
              elements.count(), 11 * kNumberBytes,
              [view = view_, b, elements](std::size_t begin, std::size_t last, char* out) {
                  for (; begin < last; ++begin) {
-                     const auto axes = (*view->frames)[b][elements[begin]].material();
-                     out = put_words(out, "      <elem lid=\"");
-                     out = put_words(put_text(out, static_cast<DeckTag>(begin + 1)), "\">");
-                     out = put_axis(put_axis(out, axes[0], "<a>", "</a>"), axes[1], "<d>", "</d>");
-                     out = put_words(out, "</elem>\n");
+                     const auto [a, d, normal] = (*view->frames)[b][elements[begin]].material();
+                     out = put_text(out, "      <elem lid=\"", begin + 1, "\"><a>", a[0], ",", a[1], ",",
+                                    a[2], "</a><d>", d[0], ",", d[1], ",", d[2], "</d></elem>\n");
                  }
                  return out;
              }});
-    }
-    static char* put_axis(char* out, const Vec3& axis, std::string_view before, std::string_view after)
-    {
-        out = put_words(out, before);
-        for (const Index i : {0, 1, 2}) {
-            if (i > 0) *out++ = ',';
-            out = put_text(out, axis[i]);
-        }
-        return put_words(out, after);
     }
 
     static std::string region_name(const MeshView::Region& region)
@@ -178,9 +160,7 @@ private:
         file_.sections.push_back(
             section_of_members(formatted("    <{} name=\"{}\">", word, xml_text(name)), view_, s,
                                kNumberBytes, [count = set.count](std::size_t i, DeckTag tag, char* out) {
-                                   out = put_text(out, tag);
-                                   if (i + 1 < count) *out++ = ',';
-                                   return out;
+                                   return put_text(out, tag, i + 1 < count ? "," : "");
                                }));
         file_.add(formatted("</{}>\n", word));
     }

@@ -57,24 +57,21 @@ public:
         const std::size_t width = longest > kCardField ? kLargeCardField : kCardField;
         const std::size_t per_line = 8 * kCardField / width;
         const std::string_view next = width == kCardField ? "+" : "*";
-        out = put_words(out, name);
-        if (width == kLargeCardField) *out++ = '*';
+        out = put_text(out, name, width == kLargeCardField ? "*" : "");
         std::size_t column = name.size() + (width == kLargeCardField ? 1 : 0);
         for (std::size_t f = 0; f < fields_.size(); ++f) {
             std::size_t start = kCardField + f % per_line * width;
             if (f > 0 && f % per_line == 0) {
-                *out++ = '\n';
-                out = put_words(out, next);
+                out = put_text(out, "\n", next);
                 column = next.size();
                 start = kCardField;
             }
             start += width - fields_[f].size();
             for (; column < start; ++column) *out++ = ' ';
-            out = put_words(out, fields_[f]);
+            out = put_text(out, fields_[f]);
             column += fields_[f].size();
         }
-        *out++ = '\n';
-        return out;
+        return put_text(out, "\n");
     }
     /// Upper bound on the bytes of a card with this number of fields, none longer than `longest`.
     static std::size_t room(std::size_t fields, std::size_t longest)
@@ -85,14 +82,10 @@ public:
 private:
     char* put_free(char* out, std::string_view name)
     {
-        out = put_words(out, name);
-        for (std::size_t f = 0; f < fields_.size(); ++f) {
-            if (f > 0 && f % 8 == 0) out = put_words(out, "\n+");
-            *out++ = ',';
-            out = put_words(out, fields_[f]);
-        }
-        *out++ = '\n';
-        return out;
+        out = put_text(out, name);
+        for (std::size_t f = 0; f < fields_.size(); ++f)
+            out = put_text(out, f > 0 && f % 8 == 0 ? "\n+," : ",", fields_[f]);
+        return put_text(out, "\n");
     }
 
     std::vector<std::string_view> fields_;

@@ -279,21 +279,9 @@ std::vector<Section> list(const std::string& head, std::size_t count, std::size_
 template <class Values>
 char* put_row(char* out, const Values& values)
 {
-    *out++ = '(';
-    for (const auto& value : values) {
-        out = put_text(out, value);
-        *out++ = ' ';
-    }
-    out[-1] = ')';
-    *out++ = '\n';
-    return out;
-}
-
-char* put_label(char* out, Index label)
-{
-    out = put_text(out, label);
-    *out++ = '\n';
-    return out;
+    out = put_text(out, "(");
+    for (const auto& value : values) out = put_text(out, value, " ");
+    return put_text(out - 1, ")\n");
 }
 
 std::string zones_text(const PolyMesh& mesh)
@@ -344,8 +332,7 @@ void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunCont
         "faces", list(head_of("faceList", "faces"), mesh.faces.size(), 5, each([&](std::size_t i, char* out) {
                           const Quad& face = mesh.faces[i];
                           const std::size_t corners = face[3] < 0 ? 3 : 4;
-                          *out++ = static_cast<char>('0' + corners);
-                          return put_row(out, std::span(face).first(corners));
+                          return put_row(put_text(out, corners), std::span(face).first(corners));
                       })));
     const std::string note = formatted("nPoints:{} nCells:{} nFaces:{} nInternalFaces:{}",
                                        mesh.points.count(), mesh.cells, mesh.faces.size(),
@@ -353,7 +340,7 @@ void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunCont
     const auto labels = [&](const char* name, const std::vector<Index>& of) {
         files.emplace_back(
             name, list(head_of("labelList", name, note), of.size(), 1,
-                       each([&own = of](std::size_t i, char* out) { return put_label(out, own[i]); })));
+                       each([&own = of](std::size_t i, char* out) { return put_text(out, own[i], "\n"); })));
     };
     labels("owner", mesh.owners);
     labels("neighbour", mesh.neighbours);

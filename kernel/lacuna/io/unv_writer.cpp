@@ -52,11 +52,9 @@ std::string units(const MeshView& view, const std::string& unit)
 void add_nodes(const View& view, DeckFile& file)
 {
     const auto put = [](std::size_t, DeckTag tag, const Vec3& point, char* out) {
-        out = put_right(out, tag, kColumn);
-        out = put_words(out, "         1         1        11\n");
+        out = put_text(put_right(out, tag, kColumn), "         1         1        11\n");
         for (const double x : point) out = put_double(out, x);
-        *out++ = '\n';
-        return out;
+        return put_text(out, "\n");
     };
     file.sections.push_back(
         section_of_points(std::string(kUnvMark) + "  2411\n", view, 5 * kNumberBytes + 3 * kReal, put));
@@ -77,15 +75,14 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
         out = put_right(out, tag, kColumn);
         out = put_right(out, descriptor, kColumn);
         out = put_right(out, region < 0 ? 0 : view->regions[index(region)].tag, kColumn);
-        out = put_words(out, "         1         7");
+        out = put_text(out, "         1         7");
         out = put_right(out, static_cast<long long>(nodes), kColumn);
         for (std::size_t k = 0; k < nodes; ++k) {
             if (k % (kCardColumns / kColumn) == 0) *out++ = '\n';
             const std::size_t at = brick ? kMergedBrick[places[k]] : places[k];
             out = put_right(out, view->point_tags[index(element[at])], kColumn);
         }
-        *out++ = '\n';
-        return out;
+        return put_text(out, "\n");
     };
     file.sections.push_back(section_of_cells(view, b, (nodes + 7) * kNumberBytes + 4, put));
 }
@@ -95,11 +92,8 @@ void add_members(const View& view, std::size_t set, std::string head, DeckFile& 
 {
     const int kind = view->sets[set].kind == mesh::SetKind::nodes ? kUnvNode : kUnvElement;
     const auto put = [kind, count = view->sets[set].count](std::size_t i, DeckTag tag, char* out) {
-        out = put_right(out, kind, kColumn);
-        out = put_right(out, tag, kColumn);
-        out = put_words(out, "         0         0");
-        if (i % 2 == 1 || i + 1 == count) *out++ = '\n';
-        return out;
+        out = put_right(put_right(out, kind, kColumn), tag, kColumn);
+        return put_text(out, "         0         0", i % 2 == 1 || i + 1 == count ? "\n" : "");
     };
     file.sections.push_back(section_of_members(std::move(head), view, set, 4 * kNumberBytes + 1, put));
 }

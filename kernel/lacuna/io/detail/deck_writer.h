@@ -180,12 +180,11 @@ std::vector<DeckTag> tags_of_blocks(const mesh::MeshView& view, const Which& whi
     return tags;
 }
 
-inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
 /// A word or a number, aligned right in a column.
 inline char* put_right(char* out, std::string_view text, std::size_t width)
 {
     for (std::size_t k = text.size(); k < width; ++k) *out++ = ' ';
-    return put_words(out, text);
+    return put_text(out, text);
 }
 inline char* put_right(char* out, long long number, std::size_t width)
 {

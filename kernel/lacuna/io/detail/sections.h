@@ -94,6 +94,13 @@ char* put_text(char* out, Whole value)
 {
     return put_text(out, static_cast<long long>(value));
 }
+inline char* put_text(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
+/// Words and numbers, one after the other.
+template <class First, class Second, class... Rest>
+char* put_text(char* out, const First& first, const Second& second, const Rest&... rest)
+{
+    return put_text(put_text(out, first), second, rest...);
+}
 std::string text_of(double value);
 
 /// Maximum length of a number as text, including a separator.
