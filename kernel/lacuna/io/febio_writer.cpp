@@ -20,15 +20,6 @@ namespace {
 using mesh::MeshView;
 using mesh::SetKind;
 
-/// The word of a shape; empty: FEBio has none.
-std::string_view word_of(DeckShape shape)
-{
-    constexpr std::string_view kWords[mesh::kCellShapes] = {
-        "",      "",       "tri3", "tri6",   "quad4",   "quad8", "quad9", "tet4",  "tet10",
-        "pyra5", "pyra13", "",     "penta6", "penta15", "",      "hex8",  "hex20", "hex27"};
-    return kWords[static_cast<std::size_t>(shape)];
-}
-
 /// The position of FEBio's node `k` in the order of DeckShape. In a hex27, FEBio lists the centres of the
 /// four side faces before the centres of the bottom and top faces.
 std::size_t place_of(DeckShape shape, std::size_t k)
@@ -87,7 +78,7 @@ private:
     void add_elements(std::size_t b)
     {
         const MeshView::Block& block = view_->blocks[b];
-        const std::string word(word_of(block.shape));
+        const std::string word = words_of(block.shape).febio;
         if (word.empty()) refuse_element(block, "FEBio", "there is no such element");
         const auto put = [view = view_, shape = block.shape](DeckTag tag, std::span<const Index> nodes,
                                                              char* out) {

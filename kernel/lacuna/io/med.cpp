@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/med.h>
 
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/shared/units.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace lacuna::io {
@@ -18,34 +19,7 @@ void read_med(Cursor& cursor, DeckBuilder& into);
 
 namespace {
 
-using enum DeckShape;
 using mesh::MeshView;
-
-/// For each MED node of a shape, its index in the order of DeckShape. In MED the nodes of a solid's base are
-/// listed in the opposite direction: counter-clockwise seen from outside.
-struct MedShape {
-    DeckShape shape;
-    std::array<std::uint8_t, 27> places;
-};
-constexpr MedShape kMedShapes[] = {
-    {line2, {0, 1}},
-    {line3, {0, 1, 2}},
-    {tri3, {0, 1, 2}},
-    {tri6, {0, 1, 2, 3, 4, 5}},
-    {quad4, {0, 1, 2, 3}},
-    {quad8, {0, 1, 2, 3, 4, 5, 6, 7}},
-    {quad9, {0, 1, 2, 3, 4, 5, 6, 7, 8}},
-    {tet4, {0, 2, 1, 3}},
-    {tet10, {0, 2, 1, 3, 6, 5, 4, 7, 9, 8}},
-    {pyramid5, {0, 3, 2, 1, 4}},
-    {pyramid13, {0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10}},
-    {wedge6, {0, 2, 1, 3, 5, 4}},
-    {wedge15, {0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13}},
-    {hex8, {0, 3, 2, 1, 4, 7, 6, 5}},
-    {hex20, {0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17}},
-    {hex27,
-     {0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17, 21, 23, 24, 22, 20, 25, 26}},
-};
 
 class MedReader {
 public:
@@ -96,23 +70,23 @@ private:
 
     std::size_t add_cells(const MedCells& cells, std::span<const DeckTag> tags)
     {
-        const auto shape = std::ranges::find(kMedShapes, cells.type,
-                                             [](const MedShape& of) { return med_type(of.shape); });
-        if (shape == std::end(kMedShapes)) cursor_.fail("the cell type {} is unknown", cells.type);
-        const auto size = static_cast<std::size_t>(shape_info(shape->shape).nodes);
+        const std::optional<DeckShape> shape = shape_numbered(&ShapeWords::med, cells.type);
+        if (!shape) cursor_.fail("the cell type {} is unknown", cells.type);
+        const auto size = static_cast<std::size_t>(shape_info(*shape).nodes);
+        const auto places = node_places(NodeOrder::med, *shape);
         const std::size_t count = cells.families.size();
         if (cells.nodes.size() != count * size) cursor_.fail("the number of nodes does not match the cells");
-        const std::size_t block = into_.block_of(shape->shape, "");
+        const std::size_t block = into_.block_of(*shape, "");
         std::vector<Index> nodes(size);
         for (std::size_t e = 0; e < count; ++e) {
             for (std::size_t k = 0; k < size; ++k) {
-                const std::int32_t node = cells.nodes[e * size + shape->places[k]];
+                const std::int32_t node = cells.nodes[e * size + places[k]];
                 if (node < 1 || index(node) > into_.points().size())
                     cursor_.fail("expected a node of {}, found number {}", into_.points().size(),
                                  found(node));
                 nodes[k] = node - 1;
             }
-            if (is_inverted(shape->shape, nodes)) // some programs write nodes in the order of VTK
+            if (is_inverted(*shape, nodes)) // some programs write nodes in the order of VTK
                 for (std::size_t k = 0; k < size; ++k) nodes[k] = cells.nodes[e * size + k] - 1;
             const std::int32_t family = cells.families[e];
             const Index region = into_.region_of(
@@ -196,15 +170,15 @@ MedContent content_of_view(const MeshView& view, const std::string& unit)
     content.point_numbers.assign(tags.begin(), tags.end());
     std::map<DeckShape, MedCells> cells;
     for (const MeshView::Block& block : view.blocks) {
-        const auto shape = std::ranges::find(kMedShapes, block.shape, &MedShape::shape);
-        if (shape == std::end(kMedShapes)) refuse_element(block, "MED", "there is no such element");
         MedCells& own = cells[block.shape];
-        own.type = med_type(block.shape);
+        own.type = words_of(block.shape).med;
+        if (own.type == 0) refuse_element(block, "MED", "there is no such element");
+        const auto places = node_places(NodeOrder::med, block.shape);
         const auto size = static_cast<std::size_t>(shape_info(block.shape).nodes);
         each_cell(block, 0, block.count, [&](std::size_t, DeckTag tag, std::span<const Index> nodes) {
             own.nodes.resize(own.nodes.size() + size);
             for (std::size_t k = 0; k < size; ++k)
-                own.nodes[own.nodes.size() - size + shape->places[k]] = nodes[k] + 1;
+                own.nodes[own.nodes.size() - size + places[k]] = nodes[k] + 1;
             if (block.tags.given() || view.is_deck) own.numbers.push_back(static_cast<std::int32_t>(tag));
         });
         mesh::each_run(block.entities, 0, block.count,

@@ -9,6 +9,7 @@
 #ifdef LACUNA_MED
 
 #include <lacuna/core/shared/bytes.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/inflate.h>
 
@@ -30,10 +31,6 @@ using MPI_Info = void*;
 namespace lacuna::io {
 namespace {
 
-/// Shapes that are read; `med_type()` gives these numbers, too.
-constexpr med_geometry_type kRead[] = {
-    MED_SEG2,    MED_SEG3,  MED_TRIA3,  MED_TRIA6,  MED_QUAD4,   MED_QUAD8, MED_QUAD9,  MED_TETRA4,
-    MED_TETRA10, MED_PYRA5, MED_PYRA13, MED_PENTA6, MED_PENTA15, MED_HEXA8, MED_HEXA20, MED_HEXA27};
 constexpr char kMesh[] = "mesh";
 
 /// Functions of the library, which only the other process loads.
@@ -184,8 +181,9 @@ MedContent content_of(const Library& library, std::string_view bytes)
     for (std::size_t k = 0; k < coordinates.size(); ++k)
         content.points[k / static_cast<std::size_t>(axes)][static_cast<Index>(k) % axes] = coordinates[k];
     read_numbers(MED_NODE, MED_NONE, nodes, content.point_families, content.point_numbers);
-    for (const med_geometry_type shape : kRead) {
-        const std::uint64_t count = count_of(MED_CELL, shape, MED_CONNECTIVITY);
+    for (const ShapeWords& words : kShapeWords) {
+        const med_geometry_type shape = words.med;
+        const std::uint64_t count = shape == 0 ? 0 : count_of(MED_CELL, shape, MED_CONNECTIVITY);
         const auto size = static_cast<std::uint64_t>(shape % 100);
         if (count == 0) continue;
         if (is_too_many(count * size)) return refuse("it announces more cells than it can hold");

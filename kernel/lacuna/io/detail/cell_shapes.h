@@ -12,34 +12,34 @@
 /// Shapes of cells in the formats, and of swept meshes. Internal to this folder.
 namespace lacuna::io {
 
-/// Names of a shape in the formats. For Abaqus, Nastran and Exodus: the type word that is written for
-/// elements read from another format; empty: there is none. For UNV (where a face is a thin shell), Gmsh and
-/// VTK: the number of the type; 0: there is none.
+/// Names of a shape in the formats. For Abaqus, Nastran, Exodus and FEBio: the type word that is written for
+/// elements read from another format; empty: there is none. For UNV (where a face is a thin shell), Gmsh,
+/// VTK and MED: the number of the type; 0: there is none.
 struct ShapeWords {
-    const char *abaqus, *nastran, *exodus;
-    int unv, gmsh, vtk;
+    const char *abaqus, *nastran, *exodus, *febio;
+    int unv, gmsh, vtk, med;
 };
 inline constexpr ShapeWords kShapeWords[mesh::kCellShapes] = {
     // lines, triangles, quads
-    {"", "", "", 0, 1, 3},
-    {"", "", "", 0, 8, 21},
-    {"S3", "CTRIA3", "TRI3", 91, 2, 5},
-    {"STRI65", "CTRIA6", "TRI6", 92, 9, 22},
-    {"S4", "CQUAD4", "SHELL4", 94, 3, 9},
-    {"S8R", "CQUAD8", "SHELL8", 95, 16, 23},
-    {"S9R5", "CQUAD", "SHELL9", 0, 10, 28},
+    {"", "", "", "", 0, 1, 3, 102},
+    {"", "", "", "", 0, 8, 21, 103},
+    {"S3", "CTRIA3", "TRI3", "tri3", 91, 2, 5, 203},
+    {"STRI65", "CTRIA6", "TRI6", "tri6", 92, 9, 22, 206},
+    {"S4", "CQUAD4", "SHELL4", "quad4", 94, 3, 9, 204},
+    {"S8R", "CQUAD8", "SHELL8", "quad8", 95, 16, 23, 208},
+    {"S9R5", "CQUAD", "SHELL9", "quad9", 0, 10, 28, 209},
     // tetrahedra, pyramids, wedges, hexahedra
-    {"C3D4", "CTETRA", "TETRA", 111, 4, 10},
-    {"C3D10", "CTETRA", "TETRA10", 118, 11, 24},
-    {"C3D8", "CPYRAM", "PYRAMID", 115, 7, 14}, // see `merged_brick()`
-    {"C3D20", "CPYRAM", "PYRAMID13", 116, 19, 27},
-    {"", "", "PYRAMID14", 0, 14, 0}, // see `vtk_view()`
-    {"C3D6", "CPENTA", "WEDGE", 112, 6, 13},
-    {"C3D15", "CPENTA", "WEDGE15", 113, 18, 26},
-    {"", "", "", 0, 13, 32},
-    {"C3D8", "CHEXA", "HEX8", 115, 5, 12},
-    {"C3D20", "CHEXA", "HEX20", 116, 17, 25},
-    {"", "", "HEX27", 0, 12, 29},
+    {"C3D4", "CTETRA", "TETRA", "tet4", 111, 4, 10, 304},
+    {"C3D10", "CTETRA", "TETRA10", "tet10", 118, 11, 24, 310},
+    {"C3D8", "CPYRAM", "PYRAMID", "pyra5", 115, 7, 14, 305}, // see `merged_brick()`
+    {"C3D20", "CPYRAM", "PYRAMID13", "pyra13", 116, 19, 27, 313},
+    {"", "", "PYRAMID14", "", 0, 14, 0, 0}, // see `vtk_view()`
+    {"C3D6", "CPENTA", "WEDGE", "penta6", 112, 6, 13, 306},
+    {"C3D15", "CPENTA", "WEDGE15", "penta15", 113, 18, 26, 315},
+    {"", "", "", "", 0, 13, 32, 0},
+    {"C3D8", "CHEXA", "HEX8", "hex8", 115, 5, 12, 308},
+    {"C3D20", "CHEXA", "HEX20", "hex20", 116, 17, 25, 320},
+    {"", "", "HEX27", "hex27", 0, 12, 29, 327},
 };
 inline const ShapeWords& words_of(DeckShape shape) { return kShapeWords[static_cast<std::size_t>(shape)]; }
 /// The shape with a given number (above 0) in a format; empty: no shape has it.
@@ -73,11 +73,12 @@ inline constexpr std::array<std::uint8_t, 20> kMergedBrick{0, 1, 2, 3, 4, 4, 4, 
                                                            7, 8, 4, 4, 4, 4, 9, 10, 11, 12};
 
 /// Formats whose cell nodes are ordered differently from DeckShape.
-enum class NodeOrder { exodus, gmsh, unv };
+enum class NodeOrder { exodus, gmsh, unv, med };
 /// For each node in the order of DeckShape, its position in the format's order. In Exodus and Nastran, middle
 /// nodes of upright sides come before those of the top, and the centre of a hexahedron comes before the
 /// centres of its faces. In UNV, corners and middle nodes alternate around the cell in each layer, with the
-/// middle nodes of upright sides between the layers.
+/// middle nodes of upright sides between the layers. In MED, the nodes of a solid's base are listed in the
+/// opposite direction: counter-clockwise seen from outside.
 std::span<const std::uint8_t> node_places(NodeOrder order, DeckShape shape);
 
 /// The name given to a physical group of Gmsh that has none.

@@ -12,12 +12,6 @@
 /// folder. https://docs.salome-platform.org/latest/dev/MEDCoupling/developer/med-file.html
 namespace lacuna::io {
 
-/// The number that MED gives to a shape.
-inline std::int32_t med_type(DeckShape shape)
-{
-    return 100 * shape_info(shape).dimension + shape_info(shape).nodes;
-}
-
 struct MedCells {
     std::int32_t type = 0;
     std::vector<std::int32_t> nodes{}, families{}, numbers{}; ///< `numbers`: empty if the file gives none
