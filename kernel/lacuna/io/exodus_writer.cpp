@@ -114,8 +114,11 @@ public:
         put_big(head, std::int32_t{11});
         put_big(head, static_cast<std::int32_t>(arrays_.size()));
         std::size_t begin = head.size();
-        for (const Array& array : arrays_)
-            begin += size_of_array(array.name, array.dimensions.size(), array.attributes);
+        for (const Array& array : arrays_) {
+            std::string text;
+            put_array(text, array, 0, 0);
+            begin += text.size();
+        }
         std::vector<Section> sections(1);
         for (Array& array : arrays_) {
             const std::size_t bytes = array.count * bytes_of(array.type);
@@ -126,8 +129,8 @@ public:
                                            array.name, bytes)
                                        .remedy("write another format"));
             // The size of an array that exists once for each time step is that of one step.
-            put_array(head, array.name, array.dimensions, array.attributes, array.type,
-                      padded(array.count == 0 ? array.record * bytes_of(array.type) : bytes), begin);
+            put_array(head, array, padded(array.count == 0 ? array.record * bytes_of(array.type) : bytes),
+                      begin);
             begin += padded(bytes);
             sections.push_back({{},
                                 array.record == 0 ? 0 : array.count / array.record,
@@ -163,25 +166,15 @@ private:
         }
     }
 
-    static void put_array(std::string& out, const std::string& name, const std::vector<int>& dimensions,
-                          const std::vector<Attribute>& attributes, NcType type, std::size_t bytes,
-                          std::size_t begin)
+    static void put_array(std::string& out, const Array& array, std::size_t bytes, std::size_t begin)
     {
-        put_name(out, name);
-        put_big(out, static_cast<std::int32_t>(dimensions.size()));
-        for (const int d : dimensions) put_big(out, static_cast<std::int32_t>(d));
-        put_attributes(out, attributes);
-        put_big(out, static_cast<std::int32_t>(type));
+        put_name(out, array.name);
+        put_big(out, static_cast<std::int32_t>(array.dimensions.size()));
+        for (const int d : array.dimensions) put_big(out, static_cast<std::int32_t>(d));
+        put_attributes(out, array.attributes);
+        put_big(out, static_cast<std::int32_t>(array.type));
         put_big(out, static_cast<std::uint32_t>(bytes));
         put_big(out, static_cast<std::uint64_t>(begin));
-    }
-
-    static std::size_t size_of_array(const std::string& name, std::size_t dimensions,
-                                     const std::vector<Attribute>& attributes)
-    {
-        std::string text;
-        put_array(text, name, std::vector<int>(dimensions, 0), attributes, NcType::whole, 0, 0);
-        return text.size();
     }
 
     std::vector<std::pair<std::string, std::size_t>> dimensions_;
