@@ -200,11 +200,7 @@ private:
     void add_segments(const MeshView::Set& set)
     {
         std::string text;
-        std::size_t edges = 0;
-        for (const DeckSide& side : set.sides) {
-            const std::span<const Index> nodes = sides_[side];
-            if (nodes.empty()) ++edges;
-            if (nodes.empty()) continue;
+        sides_.each_face(set, file_.notes, [&](std::span<const Index> nodes) {
             const std::size_t corners = nodes.size() == 3 || nodes.size() == 6 ? 3 : 4;
             char line[4 * kNumberBytes];
             char* out = line;
@@ -212,10 +208,7 @@ private:
                 out = put_right(out, view_->point_tags[index(nodes[std::min(k, corners - 1)])],
                                 kDynaSetField);
             text.append(line, out).append("\n");
-        }
-        if (edges > 0)
-            file_.notes.push_back(
-                formatted("{} edges of shells in the set {} are not written", edges, set.name));
+        });
         if (!text.empty()) file_.add(head_of(set, "*SET_SEGMENT_TITLE") + text);
     }
 

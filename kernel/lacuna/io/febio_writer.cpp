@@ -160,23 +160,15 @@ private:
     {
         const MeshView::Set& set = view_->sets[s];
         std::string text;
-        std::size_t edges = 0, number = 0;
-        for (const DeckSide& side : set.sides) {
-            const std::span<const Index> nodes = sides_[side];
-            if (nodes.empty()) {
-                ++edges;
-                continue;
-            }
+        std::size_t number = 0;
+        sides_.each_face(set, file_.notes, [&](std::span<const Index> nodes) {
             const std::string word = (nodes.size() % 3 == 0 && nodes.size() < 9 ? "tri" : "quad") +
                                      std::to_string(nodes.size());
             text += formatted("      <{} id=\"{}\">", word, ++number);
             for (std::size_t k = 0; k < nodes.size(); ++k)
                 text += (k > 0 ? "," : "") + std::to_string(view_->point_tags[index(nodes[k])]);
             text += formatted("</{}>\n", word);
-        }
-        if (edges > 0)
-            file_.notes.push_back(
-                formatted("{} edges of shells in the set {} are not written", edges, set.name));
+        });
         if (number == 0) return;
         const std::string name = surface_names_[s] = free(set.name, set.name + "_surface", surfaces_);
         file_.add(formatted("    <Surface name=\"{}\">\n{}    </Surface>\n", xml_text(name), text));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/mesh/shared/mesh_view.h>
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 /// Sides of cells as lists of nodes. Internal to this folder.
@@ -22,6 +24,20 @@ public:
     /// the front or back. Empty for an edge of a shell.
     /// @pre  the side is a member of a set of the view
     [[nodiscard]] std::span<const Index> operator[](const mesh::CellSide& side) const;
+
+    /// Call `visit(nodes)` for each side of a set. Edges of shells are only counted, in a note.
+    template <class Visit>
+    void each_face(const mesh::MeshView::Set& set, std::vector<std::string>& notes, const Visit& visit) const
+    {
+        std::size_t edges = 0;
+        for (const mesh::CellSide& side : set.sides)
+            if (const std::span<const Index> nodes = (*this)[side]; nodes.empty())
+                ++edges;
+            else
+                visit(nodes);
+        if (edges > 0)
+            notes.push_back(formatted("{} edges of shells in the set {} are not written", edges, set.name));
+    }
 
 private:
     struct Nodes {
