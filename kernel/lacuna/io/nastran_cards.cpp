@@ -65,6 +65,12 @@ bool is_large(std::string_view first) { return first.find('*') != std::string_vi
 /// Whether the last field of a line names a continuation.
 bool is_named(std::string_view marker) { return marker.size() > 1 && (marker[0] == '+' || marker[0] == '*'); }
 
+void add_line(std::string& text, std::string_view raw)
+{
+    text += raw;
+    text += '\n';
+}
+
 void check_half(const Card& card, bool large, const DeckPlace& place)
 {
     if (card.fields.size() % kFields != 0 && !large)
@@ -147,24 +153,20 @@ std::vector<DeckText> BulkData::texts() const
 
 void BulkData::read_file(Cursor& cursor, std::uint64_t file)
 {
-    const auto keep = [](std::string& text, std::string_view raw) {
-        text += raw;
-        text += '\n';
-    };
     while (!cursor.at_end() && !ended_) {
         const std::string_view raw = cursor.raw_line();
         const std::string_view line = raw.substr(0, raw.find('$'));
         const std::string_view words = trimmed(line);
         std::string& outside = tail_.empty() ? head_ : tail_;
         if (words.empty()) {
-            keep(bulk_ ? kept_ : outside, raw);
+            add_line(bulk_ ? kept_ : outside, raw);
         } else if (begins_with(words, "INCLUDE")) {
             include(cursor, words.substr(7), file);
         } else if (is_bulk_line(words, "BEGIN")) {
             end_card();
             bulk_ = true;
             if (upper(words).find("SUPER") == std::string::npos)
-                keep(head_, raw);
+                add_line(head_, raw);
             else if (++superelements_ == 1)
                 first_superelement_ = {&cursor, cursor.last(), file};
         } else if (is_bulk_line(words, "END")) {
@@ -173,11 +175,11 @@ void BulkData::read_file(Cursor& cursor, std::uint64_t file)
             if (tail_.empty()) tail_ = "ENDDATA\n";
         } else if (begins_with(words, "ENDDATA")) {
             ended_ = true;
-            keep(tail_, raw);
+            add_line(tail_, raw);
         } else if (bulk_) {
             read_line(cursor, file, line, raw);
         } else {
-            keep(outside, raw);
+            add_line(outside, raw);
         }
     }
 }
@@ -263,10 +265,7 @@ void BulkData::read_line(const Cursor& cursor, std::uint64_t file, std::string_v
         split(cursor, line);
         if (!take_fields(place)) return take_elsewhere(place, raw);
     }
-    if (card_use_ != CardUse::read) {
-        kept_ += raw;
-        kept_ += '\n';
-    }
+    if (card_use_ != CardUse::read) add_line(kept_, raw);
 }
 
 /// Take over the fields in `line_`. @return false if they belong to another card than the current one
@@ -473,10 +472,7 @@ void BulkData::go_on(Waiting waiting)
         waiting.card.fields.insert(waiting.card.fields.end(), line.card.fields.begin(),
                                    line.card.fields.end());
         waiting.marker = line.marker;
-        if (waiting.use != CardUse::read) {
-            kept_ += line.raw;
-            kept_ += '\n';
-        }
+        if (waiting.use != CardUse::read) add_line(kept_, line.raw);
         continuations_.erase(next);
     }
     hand_over(waiting.card, waiting.use);

@@ -27,17 +27,11 @@ public:
     void add(std::string_view field) { fields_.push_back(field); }
     void add_number(DeckTag number)
     {
-        char* const at = digits_.data() + used_;
-        char* const end = put_text(at, number);
-        used_ += kNumberBytes;
-        fields_.emplace_back(at, static_cast<std::size_t>(end - at));
+        add_digits([&](char* at) { return put_text(at, number); });
     }
     void add_real(double value)
     {
-        char* const at = digits_.data() + used_;
-        char* const end = put_real(at, value, kLargeCardField, RealForm::nastran);
-        used_ += kNumberBytes;
-        fields_.emplace_back(at, static_cast<std::size_t>(end - at));
+        add_digits([&](char* at) { return put_real(at, value, kLargeCardField, RealForm::nastran); });
     }
     /// Add several fields, given as a text with commas between them.
     void add_text(std::string_view text)
@@ -80,6 +74,13 @@ public:
     }
 
 private:
+    template <class Put>
+    void add_digits(const Put& put)
+    {
+        char* const at = digits_.data() + used_;
+        used_ += kNumberBytes;
+        fields_.emplace_back(at, put(at));
+    }
     char* put_free(char* out, std::string_view name)
     {
         out = put_text(out, name);
