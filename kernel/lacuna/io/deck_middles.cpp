@@ -187,10 +187,12 @@ void join_centres(const Deck& deck, const Mesh& mesh, const std::vector<bool>& m
     }
 }
 
+} // namespace
+
 /// Match the middle nodes of sides that the deck and the mesh share.
 template <class Mesh>
-void join_all(const Deck& deck, const Mesh& mesh, const std::vector<bool>& matched, double tolerance,
-              double scale, std::vector<Index>& points)
+void join_middles(const Deck& deck, const Mesh& mesh, const std::vector<bool>& matched, double tolerance,
+                  double scale, std::vector<Index>& points)
 {
     struct Side {
         std::size_t middle; ///< number of the mesh's middle node; 0: the mesh is of order 1
@@ -246,23 +248,14 @@ void join_all(const Deck& deck, const Mesh& mesh, const std::vector<bool>& match
     join_centres(deck, mesh, matched, tolerance, scale, points);
 }
 
-} // namespace
-
 NamedEntity entity_of(const mesh::SkinPatch& patch)
 {
     return {"face", patch.face, patch.groups.empty() ? std::string() : patch.groups.front()};
 }
 
-void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
-                  double tolerance, double scale, std::vector<Index>& points)
-{
-    join_all(deck, mesh, matched, tolerance, scale, points);
-}
-
-void join_middles(const Deck& deck, const mesh::TetPart& mesh, const std::vector<bool>& matched,
-                  double tolerance, double scale, std::vector<Index>& points)
-{
-    join_all(deck, mesh, matched, tolerance, scale, points);
-}
+template void join_middles(const Deck&, const mesh::HexMesh&, const std::vector<bool>&, double, double,
+                           std::vector<Index>&);
+template void join_middles(const Deck&, const mesh::TetPart&, const std::vector<bool>&, double, double,
+                           std::vector<Index>&);
 
 } // namespace lacuna::io

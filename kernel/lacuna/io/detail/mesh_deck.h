@@ -175,9 +175,8 @@ NamedEntity entity_of(const mesh::SkinPatch& patch);
 /// @param points   the deck's point for each corner of the mesh, -1: none; middle nodes are added.
 /// @throw InvalidInput "io.mixed_order"  only the deck or only the mesh has a middle node on a shared side or
 ///         quad, or the two nodes have different positions.
-void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
-                  double tolerance, double scale, std::vector<Index>& points);
-void join_middles(const Deck& deck, const mesh::TetPart& mesh, const std::vector<bool>& matched,
-                  double tolerance, double scale, std::vector<Index>& points);
+template <class Mesh>
+void join_middles(const Deck& deck, const Mesh& mesh, const std::vector<bool>& matched, double tolerance,
+                  double scale, std::vector<Index>& points);
 
 } // namespace lacuna::io
