@@ -401,15 +401,8 @@ private:
 
     void read_cell_2(const ElementType& type, std::uint64_t tag, int tags)
     {
-        int physical = 0, entity = 0;
-        for (int k = 0; k < tags; ++k) {
-            if (k == 0)
-                physical = group_tag();
-            else if (k == 1)
-                entity = cursor_.integer();
-            else
-                cursor_.integer();
-        }
+        const int physical = tags > 0 ? group_tag() : 0, entity = tags > 1 ? cursor_.integer() : 0;
+        for (int k = 2; k < tags; ++k) cursor_.integer();
         add_cell(type, tag, physical, entity);
     }
 
