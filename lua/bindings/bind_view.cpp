@@ -17,7 +17,20 @@ namespace lacuna::lua {
 
 namespace {
 
-const Option<view::PageOptions> kPageOptions[] = {{"title", text<&view::PageOptions::title>}};
+enum class Show { automatic, faces, cells };
+const Word<Show> kShows[] = {{"auto", Show::automatic}, {"faces", Show::faces}, {"cells", Show::cells}};
+
+template <class Options>
+struct OfFile : Options {
+    Show show = Show::automatic;
+};
+using PageOfFile = OfFile<view::PageOptions>;
+using PictureOfFile = OfFile<view::PictureOptions>;
+
+const Option<PageOfFile> kPageOptions[] = {{"title", text<&PageOfFile::title>},
+                                           {"show", word<&PageOfFile::show, kShows>}};
+/// Options that are only for files; the part that pages and pictures of an object show is known.
+constexpr std::string_view kOfFiles[] = {"show"};
 
 /// The output path of a page or picture, as a temporary. Raises an error if it has another ending.
 const io::OutputPath& push_path(lua_State* L, int index, const char* call, const char* ending)
@@ -87,8 +100,8 @@ int view_page(lua_State* L)
     lua_settop(L, 3);
     auto& state = hold<State>(L, 1);
     const io::OutputPath& path = push_path(L, 2, "view", ".html");
-    auto& options = temporary<view::PageOptions>(L);
-    read_options(L, 3, "view", kPageOptions, options);
+    auto& options = temporary<PageOfFile>(L);
+    read_options(L, 3, "view", kPageOptions, options, kOfFiles);
     RunContext& context = push_context(L);
     guard(L, [&] {
         if constexpr (std::is_same_v<State, ModelState>) options.path = loadable(state);
@@ -141,59 +154,7 @@ void read_shown_layers(lua_State* L, int index, const Where& where, auto& option
     options.layers = layers;
 }
 
-const Option<view::PictureOptions> kPictureOptions[] = {
-    {"width", count<&view::PictureOptions::width>},
-    {"height", count<&view::PictureOptions::height>},
-    {"view", read_direction},
-    {"colour", word<&view::PictureOptions::colour, kColours>},
-    {"cut", read_cut},
-    {"layers", read_shown_layers},
-    {"edges", boolean<&view::PictureOptions::edges>},
-    {"legend", boolean<&view::PictureOptions::legend>},
-    {"title", text<&view::PictureOptions::title>},
-};
-/// Options for pictures of faces, which have no cells.
-const Option<view::PictureOptions> kFacePictureOptions[] = {
-    {"width", count<&view::PictureOptions::width>},
-    {"height", count<&view::PictureOptions::height>},
-    {"view", read_direction},
-    {"facets", boolean<&view::PictureOptions::facets>},
-    {"legend", boolean<&view::PictureOptions::legend>},
-    {"title", text<&view::PictureOptions::title>},
-};
-
-/// x:picture(path [, options])
-template <class State, const auto& Table>
-int picture(lua_State* L)
-{
-    lua_settop(L, 3);
-    auto& state = hold<State>(L, 1);
-    const io::OutputPath& path = push_path(L, 2, "picture", ".png");
-    auto& options = temporary<view::PictureOptions>(L);
-    read_options(L, 3, "picture", Table, options);
-    RunContext& context = push_context(L);
-    guard(L, [&] {
-        with_shown(state, context,
-                   [&](const auto& shown) { view::write_picture(shown, path, options, context); });
-    });
-    return 0;
-}
-
-// --- of a file ------------------------------------------------------------------------------------------
-
-enum class Show { automatic, faces, cells };
-const Word<Show> kShows[] = {{"auto", Show::automatic}, {"faces", Show::faces}, {"cells", Show::cells}};
-
-template <class Options>
-struct OfFile : Options {
-    Show show = Show::automatic;
-};
-using PageOfFile = OfFile<view::PageOptions>;
-using PictureOfFile = OfFile<view::PictureOptions>;
-
-const Option<PageOfFile> kFilePageOptions[] = {{"title", text<&PageOfFile::title>},
-                                               {"show", word<&PageOfFile::show, kShows>}};
-const Option<PictureOfFile> kFilePictureOptions[] = {
+const Option<PictureOfFile> kPictureOptions[] = {
     {"width", count<&PictureOfFile::width>},
     {"height", count<&PictureOfFile::height>},
     {"view", read_direction},
@@ -206,6 +167,28 @@ const Option<PictureOfFile> kFilePictureOptions[] = {
     {"title", text<&PictureOfFile::title>},
     {"show", word<&PictureOfFile::show, kShows>},
 };
+// What the pictures of cells and of faces, which have no cells, leave out.
+constexpr std::string_view kNotOfCells[] = {"facets", "show"};
+constexpr std::string_view kNotOfFaces[] = {"colour", "cut", "layers", "edges", "show"};
+
+/// x:picture(path [, options])
+template <class State, const auto& LeftOut>
+int picture(lua_State* L)
+{
+    lua_settop(L, 3);
+    auto& state = hold<State>(L, 1);
+    const io::OutputPath& path = push_path(L, 2, "picture", ".png");
+    auto& options = temporary<PictureOfFile>(L);
+    read_options(L, 3, "picture", kPictureOptions, options, LeftOut);
+    RunContext& context = push_context(L);
+    guard(L, [&] {
+        with_shown(state, context,
+                   [&](const auto& shown) { view::write_picture(shown, path, options, context); });
+    });
+    return 0;
+}
+
+// --- of a file ------------------------------------------------------------------------------------------
 
 bool is_deck(const std::string& file)
 {
@@ -286,17 +269,14 @@ int file_drawn(lua_State* L, const char* call, const char* ending, const auto& t
 }
 
 /// lacuna.view
-int view(lua_State* L) { return file_drawn<PageOfFile>(L, "view", ".html", kFilePageOptions); }
+int view(lua_State* L) { return file_drawn<PageOfFile>(L, "view", ".html", kPageOptions); }
 /// lacuna.picture
-int picture_of_file(lua_State* L)
-{
-    return file_drawn<PictureOfFile>(L, "picture", ".png", kFilePictureOptions);
-}
+int picture_of_file(lua_State* L) { return file_drawn<PictureOfFile>(L, "picture", ".png", kPictureOptions); }
 
-template <class State, const auto& Pictures>
+template <class State, const auto& LeftOut>
 void add_views(lua_State* L)
 {
-    add_methods<State>(L, {{"view", view_page<State>}, {"picture", picture<State, Pictures>}});
+    add_methods<State>(L, {{"view", view_page<State>}, {"picture", picture<State, LeftOut>}});
 }
 
 } // namespace
@@ -304,11 +284,11 @@ void add_views(lua_State* L)
 void bind_view(lua_State* L)
 {
     set_functions(L, {{"view", view}, {"picture", picture_of_file}});
-    add_views<ModelState, kFacePictureOptions>(L);
-    add_views<VolumeState, kFacePictureOptions>(L);
-    add_views<MeshState, kPictureOptions>(L);
-    add_views<AssemblyMeshState, kPictureOptions>(L);
-    add_views<QuadMeshState, kFacePictureOptions>(L);
+    add_views<ModelState, kNotOfFaces>(L);
+    add_views<VolumeState, kNotOfFaces>(L);
+    add_views<MeshState, kNotOfCells>(L);
+    add_views<AssemblyMeshState, kNotOfCells>(L);
+    add_views<QuadMeshState, kNotOfFaces>(L);
 }
 
 } // namespace lacuna::lua

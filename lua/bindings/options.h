@@ -10,9 +10,12 @@
 #include <lacuna/core/shared/nearest_word.h>
 #include <lacuna/core/types.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lacuna::lua {
@@ -124,15 +127,18 @@ void check_keys(lua_State* L, int index, const char* call, const char* const* ke
 /// False if there are no options; raises an error if they are not a table.
 bool has_options(lua_State* L, int index, const char* call);
 
+/// @param left_out  keys of the table that this call does not know
 template <class Options, std::size_t N>
 void read_options(lua_State* L, int index, const char* call, const Option<Options> (&table)[N],
-                  Options& options)
+                  Options& options, std::span<const std::string_view> left_out = {})
 {
     if (!has_options(L, index, call)) return;
     index = lua_absindex(L, index);
     const char* keys[N];
-    for (std::size_t i = 0; i < N; ++i) keys[i] = table[i].key;
-    check_keys(L, index, call, keys, N);
+    std::size_t count = 0;
+    for (const Option<Options>& option : table)
+        if (std::ranges::find(left_out, option.key) == left_out.end()) keys[count++] = option.key;
+    check_keys(L, index, call, keys, count);
     for (const Option<Options>& option : table) {
         const int top = lua_gettop(L);
         if (lua_getfield(L, index, option.key) != LUA_TNIL)
