@@ -19,8 +19,8 @@ namespace {
 class FlatLayer {
 public:
     FlatLayer(const OpenVolume& base, const EndsMap& map, std::span<const RimPair> pairs,
-              std::span<const ClosedPair> closed, std::span<const EdgeId> inner, const Reach& reach)
-        : base_(base), map_(map), pairs_(pairs), closed_(closed), inner_(inner), reach_(reach)
+              std::span<const EdgeId> inner, const Reach& reach)
+        : base_(base), map_(map), pairs_(pairs), inner_(inner), reach_(reach)
     {
     }
 
@@ -85,8 +85,6 @@ private:
             return found->second;
         };
         for (const EdgeId edge : inner_) {
-            const auto is_it = [&](const ClosedPair& pair) { return pair.target == edge; };
-            if (std::ranges::any_of(closed_, is_it)) continue;
             FlatEdge flat = flat_edge(base, map_, edge, true);
             flat.cuts = {{0, node_at(base[edge].from)}, {1, node_at(base[edge].to)}};
             flat_.target.push_back(std::move(flat));
@@ -197,7 +195,6 @@ private:
     const OpenVolume& base_;
     const EndsMap& map_;
     std::span<const RimPair> pairs_;
-    std::span<const ClosedPair> closed_;
     std::span<const EdgeId> inner_;
     const Reach& reach_;
     FlatEnds flat_;
@@ -217,9 +214,9 @@ FlatEdge flat_edge(const Model& model, const EndsMap& map, EdgeId id, bool targe
 }
 
 FlatEnds lay_flat(const OpenVolume& base, const EndsMap& map, std::span<const RimPair> pairs,
-                  std::span<const ClosedPair> closed, std::span<const EdgeId> inner, const Reach& reach)
+                  std::span<const EdgeId> inner, const Reach& reach)
 {
-    return FlatLayer(base, map, pairs, closed, inner, reach).run();
+    return FlatLayer(base, map, pairs, inner, reach).run();
 }
 
 std::vector<FlatPiece> pieces_of(std::span<const FlatEdge> edges, std::span<const Vec2> place)

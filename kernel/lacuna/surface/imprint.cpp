@@ -10,7 +10,6 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/surface/detail/alike_ends.h>
-#include <lacuna/surface/detail/closed_edges.h>
 #include <lacuna/surface/detail/flat_ends.h>
 #include <lacuna/surface/detail/imprint_rims.h>
 #include <lacuna/surface/detail/imprint_rules.h>
@@ -59,13 +58,12 @@ public:
         pairs_ = pair_rims(model(), given_links_, inner_, size_);
         result_.links = link_anew(*result_.volume, given_links_, pairs_);
         base_ = *result_.volume;
-        map_.emplace(base_, result_.links, std::span<const ClosedPair>{}, known_);
+        map_.emplace(base_, result_.links, known_);
         if (!map_->one_to_one()) {
             refuse_imprint(model(), inner_.front(),
                            "source and target cannot be mapped onto each other one to one");
         }
-        pair_closed();
-        flat_ = lay_flat(base_, *map_, pairs_, closed_, inner_, reach_);
+        flat_ = lay_flat(base_, *map_, pairs_, inner_, reach_);
         cut_source();
         builder_.emplace(model());
         add_target();
@@ -132,21 +130,6 @@ private:
         }
     }
 
-    /// Pair closed edges that enclose about the same region. Then map both ends again so that each
-    /// pair coincides.
-    void pair_closed()
-    {
-        const std::vector<EdgeId> low = inner_edges(base_, Role::source);
-        for (const ClosedPair& pair : alike_closed_edges(base_.model, *map_, low, inner_)) {
-            closed_.push_back(pair);
-            EndsMap laid(base_, result_.links, closed_);
-            if (laid.one_to_one())
-                map_.emplace(std::move(laid));
-            else
-                closed_.pop_back();
-        }
-    }
-
     // --- the new model -------------------------------------------------------------------------------
 
     void set_place(Index point, const Vec2& place)
@@ -177,14 +160,7 @@ private:
             if (index(point) < base_.model.points.size()) flat_.place[piece.from] = place_[index(point)];
             set_place(point, flat_.place[piece.from]);
         }
-        for (std::size_t k = 0; k < low.size(); ++k) {
-            borders_.push_back({part[k], {}});
-            for (const ClosedPair& pair : closed_) {
-                if (pair.source != flat_.source[low[k].edge].edge) continue;
-                const auto over = [&](double at) { return pair.from + at * (pair.to - pair.from); };
-                borders_.back().image = EdgeImage{pair.target, over(low[k].from_at), over(low[k].to_at)};
-            }
-        }
+        for (const EdgeId edge : part) borders_.push_back({edge, {}});
         std::vector<FlatPiece> high = pieces_of(flat_.target, flat_.place);
         for (FlatPiece& piece : high) {
             std::optional<std::size_t> same;
@@ -518,7 +494,6 @@ private:
     std::optional<ModelBuilder> builder_; ///< builder of `result_.volume->model` while rims are split
     OpenVolume base_;                     ///< the volume after its rims are split, before its faces are split
     std::optional<EndsMap> map_;
-    std::vector<ClosedPair> closed_;
     FlatEnds flat_;
     std::vector<FlatPiece> pieces_;   ///< pieces that exist only on the target
     std::vector<Vec2> place_;         ///< plane position of each model point

@@ -16,17 +16,17 @@ namespace lacuna::surface {
 using namespace topology;
 
 EndsMap::EndsMap(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                 std::span<const ClosedPair> closed, std::span<const KnownLine> known)
+                 std::span<const KnownLine> known)
     : volume_(volume)
 {
     // The target's harmonic map may fold at concave places of the source's outline. It does not fold in a
     // circle (Tutte 1963, Floater 1997), but there the distances along the rims and between the lines differ
     // more from those in space.
     lay_source(false);
-    if (one_to_one_) lay_target(links, closed, known);
+    if (one_to_one_) lay_target(links, known);
     if (one_to_one_) return;
     lay_source(true);
-    if (one_to_one_) lay_target(links, closed, known);
+    if (one_to_one_) lay_target(links, known);
 }
 
 void EndsMap::lay_source(bool disc)
@@ -44,8 +44,7 @@ void EndsMap::lay_source(bool disc)
         face_locator_[face] = geometry::PlanarLocator(source_, model[face].triangles);
 }
 
-void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const ClosedPair> closed,
-                         std::span<const KnownLine> known)
+void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const KnownLine> known)
 {
     const Model& model = volume_.model;
     geometry::HarmonicProblem problem;
@@ -66,15 +65,6 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
         const std::vector<double> low_at = arc_of(low), high_at = arc_of(high);
         for (std::size_t i = 0; i + 1 < high.size(); ++i) // the last point is the first
             fixed[high[i]] = place_on(low, low_at, target_coordinate(link, high_at[i]));
-    }
-    for (const ClosedPair& pair : closed) {
-        const std::vector<Index>&low = model[pair.source].points, &high = model[pair.target].points;
-        const std::vector<double> low_at = arc_of(low), high_at = arc_of(high);
-        for (std::size_t i = 0; i < high.size(); ++i) {
-            double share = (high_at[i] / high_at.back() - pair.from) / (pair.to - pair.from);
-            share -= std::floor(share);
-            fixed[high[i]] = place_on(low, low_at, share);
-        }
     }
     for (const KnownLine& line : known) {
         const std::vector<double> low = arc_of(line.source), high = arc_of(line.target);

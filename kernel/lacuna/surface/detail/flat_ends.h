@@ -28,10 +28,9 @@ FlatEdge flat_edge(const topology::Model& model, const EndsMap& map, EdgeId id, 
 /// Map the inner edges of both ends to the plane. Nearby vertices and edges are merged, and edges are cut
 /// where they cross.
 /// @param pairs   vertices of both rims that coincide in the plane.
-/// @param closed  closed edges of both ends that coincide in the plane.
 /// @param inner   edges inside the target.
 FlatEnds lay_flat(const topology::OpenVolume& base, const EndsMap& map, std::span<const RimPair> pairs,
-                  std::span<const ClosedPair> closed, std::span<const EdgeId> inner, const Reach& reach);
+                  std::span<const EdgeId> inner, const Reach& reach);
 
 /// A piece of a flat edge between two consecutive cuts.
 struct FlatPiece {

@@ -17,22 +17,13 @@ struct SourcePlace {
     Vec3 point = Vec3::Zero();
 };
 
-/// Closed edges of both ends that are swept to each other.
-struct ClosedPair {
-    EdgeId source, target;
-    /// Positions on the target edge that correspond to the two ends of the source edge, as fractions of the
-    /// target edge's length. They may exceed 1, because the edge is closed.
-    double from = 0, to = 1;
-};
-
 /// Both ends of a volume mapped to one plane, in which the source runs counter-clockwise.
 class EndsMap {
 public:
     /// @param volume  must outlive the map.
-    /// @param closed  pairs of closed edges that coincide in the plane.
     /// @param known   pairs of lines that coincide in the plane.
     EndsMap(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
-            std::span<const ClosedPair> closed = {}, std::span<const KnownLine> known = {});
+            std::span<const KnownLine> known);
 
     /// Whether both ends are mapped one to one.
     [[nodiscard]] bool one_to_one() const { return one_to_one_; }
@@ -46,8 +37,7 @@ public:
 
 private:
     void lay_source(bool disc);
-    void lay_target(std::span<const LinkingSurface> links, std::span<const ClosedPair> closed,
-                    std::span<const KnownLine> known);
+    void lay_target(std::span<const LinkingSurface> links, std::span<const KnownLine> known);
 
     const topology::OpenVolume& volume_;
     std::vector<Vec2> source_, target_; ///< plane position of each model point

@@ -50,11 +50,9 @@ std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Ro
 ///
 /// 1. Source and target are mapped onto one plane: the source by `geometry::flatten()`, the target by a
 ///    harmonic map, in which the linking surfaces determine the positions of the target's rim.
-/// 2. Smooth closed edges of the two ends that enclose about the same region are paired. The target is mapped
-///    again, so that the two edges of each pair coincide.
-/// 3. The edges of the target are intersected with those of the source. Edges and vertices closer to each
+/// 2. The edges of the target are intersected with those of the source. Edges and vertices closer to each
 ///    other than a fraction of the quad size are merged.
-/// 4. The source faces are split along the edges that exist only on the target, and retriangulated.
+/// 3. The source faces are split along the edges that exist only on the target, and retriangulated.
 /// @param known  corresponding lines that an earlier imprint created on both ends. They are made to coincide
 ///         in the plane.
 /// @throw NotSweepable "surface.not_imprinted"  the ends cannot be mapped onto each other one to one, an edge
