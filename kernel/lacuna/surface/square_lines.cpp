@@ -460,49 +460,12 @@ private:
     bool square(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                 std::size_t variables)
     {
-        double weight = 1;        // of evenness: with a large one, all sides get the same length
-        std::vector<Line> uneven; // lines of the last round in which the sides were uneven
+        double weight = 1; // of evenness: with a large one, all sides get the same length
         for (int round = 0; round < kMostSteps; ++round, weight *= 2) {
             for (int k = 0; k < kMostSteps && step(lines, rungs, weight, variables) > kVisible; ++k) {}
-            if (is_even(lines)) {
-                if (!uneven.empty()) go_towards(lines, rungs, uneven);
-                return true;
-            }
-            uneven.clear();
-            for (const std::size_t l : lines) uneven.push_back(lines_[l]);
+            if (is_even(lines)) return true;
         }
         return false;
-    }
-
-    /// Move nodes towards the squarer but uneven positions, as far as the sides stay even enough.
-    void go_towards(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
-                    const std::vector<Line>& uneven)
-    {
-        const double before = worst_cosine(lines, rungs);
-        std::vector<Line> even;
-        double share = 1;
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            const Line& line = even.emplace_back(lines_[lines[i]]);
-            const auto limit = [&](const std::vector<double>& from, const std::vector<double>& to) {
-                for (std::size_t k = 0; k + 1 < from.size(); ++k) {
-                    const double side = from[k + 1] - from[k], more = to[k + 1] - to[k] - side;
-                    const double room = more > 0 ? quads::kLongestOfSize - side
-                                                 : quads::kShortestOfSize - side;
-                    if (more != 0) share = std::min(share, room / more);
-                }
-            };
-            limit(line.at, uneven[i].at);
-            limit(line.above, uneven[i].above);
-        }
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            Line& line = lines_[lines[i]];
-            for (std::size_t k = 0; k < line.at.size(); ++k)
-                line.at[k] += share * (uneven[i].at[k] - line.at[k]);
-            for (std::size_t k = 0; k < line.above.size(); ++k)
-                line.above[k] += share * (uneven[i].above[k] - line.above[k]);
-        }
-        if (worst_cosine(lines, rungs) < before) return;
-        for (std::size_t i = 0; i < lines.size(); ++i) lines_[lines[i]] = std::move(even[i]);
     }
 
     void take(const std::vector<std::size_t>& lines)

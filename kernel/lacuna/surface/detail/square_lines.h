@@ -25,8 +25,7 @@ namespace lacuna::surface {
 /// - The sides at both ends of an edge count twice in the first sum, because such a side is the height of a
 ///   row along the adjacent edge.
 /// - At a curved side, the direction of a line is that of a Coons patch: it follows the adjacent sides.
-/// - If a side becomes too long or too short, the first sum gets a higher weight. Afterwards the nodes move
-///   towards the squarer positions as far as the allowed lengths permit.
+/// - If a side becomes too long or too short, the first sum gets a higher weight.
 /// - Lines that are straight and have both ends on rims: their cosines are means over five sections of the
 ///   volume, because moving the nodes on the source shears the mesh above. To find these sections, the
 ///   function meshes the walls with few layers.
