@@ -7,18 +7,17 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/spread.h>
+#include <lacuna/matching/shared/guides.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/section.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
-#include <set>
 
 namespace lacuna::closure {
 
@@ -99,48 +98,13 @@ std::vector<Candidate> candidates_of(const Model& model, const RunContext& conte
     return sorted;
 }
 
-/// Length of a piece from cut to cut, along the centroids of the level lines of a harmonic function on its
-/// walls that is 0 at one cut and 1 at the other.
-double arc_length(const OpenVolume& volume)
+/// Length of a piece from cut to cut, along the centroids of the sections of its walls; 0 if there are none.
+double arc_length(const OpenVolume& volume, const RunContext& context)
 {
-    const Model& model = volume.model;
-    const std::vector<Triangle> walls = facets_of(model, volume.faces(Role::wall));
-    std::map<Index, double> ends;
-    std::vector<Vec3> line(kChords + 1, Vec3::Zero());
-    for (const Role end : {Role::source, Role::target}) {
-        const std::vector<FaceId> faces = volume.faces(end);
-        for (const Triangle& t : facets_of(model, faces))
-            for (const Index p : t) ends[p] = end == Role::source ? 0 : 1;
-        (end == Role::source ? line.front() : line.back()) = centroid_of(model, faces);
-    }
-    geometry::HarmonicProblem problem;
-    problem.points = model.points;
-    problem.triangles = walls;
-    std::set<Index> used;
-    for (const Triangle& t : walls) used.insert(t.begin(), t.end());
-    std::erase_if(ends, [&](const auto& end) { return !used.contains(end.first); });
-    problem.fix(ends);
-    const Eigen::MatrixXd height = geometry::solve_harmonic(problem);
-    for (std::size_t k = 1; k < kChords; ++k) {
-        const double level = static_cast<double>(k) / kChords;
-        double length = 0;
-        for (const Triangle& t : walls) {
-            std::vector<Vec3> crossed;
-            for (std::size_t i = 0; i < 3; ++i) {
-                const Index a = t[i], b = t[(i + 1) % 3];
-                const double from = height(a, 0) - level, to = height(b, 0) - level;
-                if ((from < 0) == (to < 0)) continue;
-                crossed.emplace_back(model.at(a) + from / (from - to) * (model.at(b) - model.at(a)));
-            }
-            if (crossed.size() != 2) continue;
-            const double own = (crossed[1] - crossed[0]).norm();
-            line[k] += own * (crossed[0] + crossed[1]) / 2;
-            length += own;
-        }
-        if (!(length > 0)) return 0;
-        line[k] /= length;
-    }
-    return geometry::length(line);
+    std::vector<Vec3> line;
+    for (const std::vector<Vec3>& section : matching::cut_sections(volume, {}, context).levels)
+        if (!section.empty()) line.push_back(geometry::mean_point(section));
+    return line.empty() ? 0 : geometry::length(line);
 }
 
 /// Whether a ring was cut across: there are two pieces, and all ends of both are cut faces.
@@ -175,7 +139,7 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
         if (!pieces) continue;
         if (is_cut_across(*pieces)) {
             StepPiece &one = pieces->front(), &other = pieces->back();
-            double first = arc_length(one.volume), second = arc_length(other.volume);
+            double first = arc_length(one.volume, context), second = arc_length(other.volume, context);
             if (!(first > 0 && second > 0)) first = second = 1; // not measured: half a turn each
             one.turn_to = other.turn_from = first / (first + second);
             return std::move(*pieces);
