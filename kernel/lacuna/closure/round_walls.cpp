@@ -255,33 +255,6 @@ std::vector<std::pair<RoundRim, RoundRim>> pairs_of(std::vector<RoundRim> group,
     return pairs;
 }
 
-/// Pairs of indices of uses, one of each loop, that start at the same angle round the axis. @pre both loops
-/// run the same way round
-std::vector<std::pair<std::size_t, std::size_t>> aligned(const Model& model, const RoundRim& axis,
-                                                         const std::vector<EdgeUse>& a,
-                                                         const std::vector<EdgeUse>& b)
-{
-    const auto angle = [&](EdgeUse use) {
-        return angle_at(axis.base, model.at(model[use_from(model, use)].point));
-    };
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        for (std::size_t j = 0; j < b.size(); ++j)
-            if (std::abs(turn_between(angle(a[i]), angle(b[j]))) <= kAlikeSizes) pairs.emplace_back(i, j);
-    return pairs;
-}
-
-/// The uses of a loop from one index to another; the whole loop if the indices are equal.
-std::vector<EdgeUse> stretch(const std::vector<EdgeUse>& loop, std::size_t from, std::size_t to)
-{
-    std::vector<EdgeUse> uses;
-    do {
-        uses.push_back(loop[from]);
-        from = (from + 1) % loop.size();
-    } while (from != to);
-    return uses;
-}
-
 /// Shift an unrolled hole by whole turns into an unrolled outline. @return  false if it lies outside
 bool shift_inside(std::vector<Vec2>& hole, const std::vector<Vec2>& outer, double turn)
 {
@@ -423,38 +396,18 @@ std::optional<VoidFilling> fill_round_wall(const Model& model, const RoundRim& f
     return result;
 }
 
-/// Add the wall between two rims. If both are flat, vertices at equal angles are joined by straight edges.
-/// @return  false if the unrolled wall crosses itself or a hole
-bool add_tube(FlatFilling& filling, const RoundRim& from, const RoundRim& to, const std::vector<EdgeUse>& a,
+/// Add the wall between two rims. @return  false if the unrolled wall crosses itself or a hole
+bool add_tube(FlatFilling& filling, const RoundRim& from, const std::vector<EdgeUse>& a,
               std::vector<EdgeUse> b, const std::vector<Loop>& holes, const RunContext& context)
 {
-    Model& model = filling.volume.model;
+    const Model& model = filling.volume.model;
     const auto sense = [&](const std::vector<EdgeUse>& uses) {
         return turn_round(from.base, loop_places(model, uses)) > 0;
     };
     if (sense(a) != sense(b)) b = closure::reversed({b}).uses;
-    const bool plain = from.flat && to.flat && holes.empty();
-    const auto pairs = plain ? aligned(model, from, a, b)
-                             : std::vector<std::pair<std::size_t, std::size_t>>();
-    if (pairs.empty()) {
-        auto wall = fill_round_wall(model, from, a, b, holes, context);
-        if (!wall) return false;
-        filling.closure.void_faces.push_back(add_void_face(filling.volume, std::move(*wall), Role::wall));
-        return true;
-    }
-    std::vector<EdgeId> rungs;
-    for (const auto& [i, j] : pairs)
-        rungs.push_back(add_void_edge_through(model, use_from(model, a[i]), use_from(model, b[j])));
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-        const std::size_t next = (p + 1) % pairs.size();
-        std::vector<std::vector<EdgeUse>> sides(4);
-        sides[0] = stretch(a, pairs[p].first, pairs[next].first);
-        sides[1] = {{rungs[next], false}};
-        sides[2] = closure::reversed({stretch(b, pairs[p].second, pairs[next].second)}).uses;
-        sides[3] = {{rungs[p], true}};
-        add_wall(filling, sides, context);
-    }
-    filling.closure.void_edges.insert(filling.closure.void_edges.end(), rungs.begin(), rungs.end());
+    auto wall = fill_round_wall(model, from, a, b, holes, context);
+    if (!wall) return false;
+    filling.closure.void_faces.push_back(add_void_face(filling.volume, std::move(*wall), Role::wall));
     return true;
 }
 
@@ -733,7 +686,7 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
         for (const auto& [from, to] : pairs_of(group, part)) {
             check_cancelled(context);
             const auto [holes, taken] = holes_between(from, loop_places(model, loops[to.loop].uses));
-            if (!add_tube(filling, from, to, loops[from.loop].uses, loops[to.loop].uses, holes, context))
+            if (!add_tube(filling, from, loops[from.loop].uses, loops[to.loop].uses, holes, context))
                 continue;
             joined.insert(taken.begin(), taken.end());
             joined.insert({from.loop, to.loop});
@@ -757,10 +710,7 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
             // add_straight_walls() adds the walls of flat rims, with edges from vertex to vertex.
             if (rim.flat && holes.empty()) continue;
             const Rim top = add_closed_edge(filling.volume.model, image);
-            RoundRim end = rim;
-            end.base.origin -= geometry::height(*plane, end.base.origin) * plane->normal;
-            end.flat = true;
-            if (!add_tube(filling, rim, end, loops[rim.loop].uses, top.uses, holes, context)) continue;
+            if (!add_tube(filling, rim, loops[rim.loop].uses, top.uses, holes, context)) continue;
             filling.closure.void_edges.push_back(top.uses.front().edge);
             joined.insert(taken.begin(), taken.end());
             joined.insert(rim.loop);
