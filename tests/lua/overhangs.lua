@@ -534,17 +534,19 @@ BooleanDifference(7) = { Volume{3}; Delete; }{ Volume{6}; Delete; };]])
 end
 
 -- Slots through a block that are narrower or wider at the mouth: all of the slot is the first cavity.
-for _, member in ipairs { { "T-slot", 24, 9, 14 }, { "stepped slot", 10, 12, 24 } } do
-  local word, low, step, high = table.unpack(member)
-  local file = params.scratch .. "/slot.geo"
-  check.write(file, ([[SetFactory("OpenCASCADE");
-    Box(1) = {0, -40, -40, 200, 80, 40};
-    Box(2) = {0, %g, -20, 200, %g, %g};
-    Box(3) = {0, %g, %g, 200, %g, %g};
-    BooleanDifference(9) = { Volume{1}; Delete; }{ Volume{2:3}; Delete; };]]):format(-low / 2, low, step,
-    -high / 2, step - 20, high, 20 - step))
-  local model = lacuna.load(file)
-  local exact = 200 * (low * step + high * (20 - step))
+for _, widths in ipairs { { 24, 14 }, { 10, 24 }, { 24, 14, 30 }, { 8, 16, 24 } } do
+  local lines, exact, word = {}, 0, table.concat(widths, ", ")
+  for level, width in ipairs(widths) do
+    lines[level] = ("Box(%d) = {0, %g, %g, 200, %g, 8};"):format(level + 1, -width / 2,
+      8 * (level - 1 - #widths), width)
+    exact = exact + 200 * 8 * width
+  end
+  check.write(params.scratch .. "/slot.geo", ([[SetFactory("OpenCASCADE");
+    Box(1) = {0, -40, -50, 200, 80, 50};
+    %s
+    BooleanDifference(9) = { Volume{1}; Delete; }{ Volume{2:%d}; Delete; };]]):format(
+    table.concat(lines, "\n"), #widths + 1))
+  local model = lacuna.load(params.scratch .. "/slot.geo")
   local first = model:cavities()[1]
   check.near(first.volume, exact, 1e-6 * exact, word)
   local mesh = model:open_volume({ faces = first.faces }):sweep { size = 6 }

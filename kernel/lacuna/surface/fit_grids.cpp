@@ -37,7 +37,8 @@ bool is_settled(const SeedTask& task, const FaceGrids& grids, const std::set<Edg
 void fit_grid(const SeedTask& task, const FaceGrids& grids, FaceId face, std::set<EdgeId>& settled,
               Seeds& seeds, const RunContext& context)
 {
-    const bool patterns = task.style == QuadStyle::automatic || task.style == QuadStyle::rows;
+    const bool patterns = task.style == QuadStyle::automatic ||
+                          (task.style == QuadStyle::rows && task.model[face].loops.size() > 1);
     if (!patterns || (task.sizing.gap > 0 && !task.sizing.counts_across) || !is_free(grids, seeds, face))
         return;
     const Vec3 normal = face_area_vector(task.model, face).stableNormalized();

@@ -140,16 +140,17 @@ struct FaceGroups {
     std::vector<std::size_t> group_of{}; ///< by facet
 };
 
-/// The faces of a hollow together with those that enclose its mouth, such as the neck of a T-slot: groups
-/// beside it of which a face looks at the hollow or at another group beside it.
+/// The groups that enclose the mouth of a hollow, such as the neck of a T-slot: those beside it of which a
+/// face looks at the hollow or at another group beside it.
+/// @param hollow  groups of the hollow
 /// @param tree  of the groups' facets
-std::vector<FaceId> with_neck(const Model& model, const FaceGroups& groups, std::size_t own,
-                              const geometry::FacetTree& tree)
+std::set<std::size_t> neck_of(const Model& model, const FaceGroups& groups,
+                              const std::set<std::size_t>& hollow, const geometry::FacetTree& tree)
 {
-    std::vector<FaceId> result = groups.faces.at(own);
-    const auto found = groups.beside.find(own);
-    if (found == groups.beside.end()) return result;
-    const std::set<std::size_t>& beside = found->second;
+    std::set<std::size_t> near = hollow, neck;
+    for (const std::size_t group : hollow)
+        if (const auto found = groups.beside.find(group); found != groups.beside.end())
+            near.insert(found->second.begin(), found->second.end());
     const auto looks_inside = [&](FaceId face, std::size_t group) {
         const std::vector<Triangle>& facets = model[face].triangles;
         const Triangle& t = *std::ranges::max_element(
@@ -158,14 +159,14 @@ std::vector<FaceId> with_neck(const Model& model, const FaceGroups& groups, std:
         const auto hit = tree.first_along(facet_centre(model, t) + model.tolerance * out, out);
         if (hit.triangle < 0) return false;
         const std::size_t seen = groups.group_of[index(hit.triangle)];
-        return seen != group && (seen == own || beside.contains(seen));
+        return seen != group && near.contains(seen);
     };
-    for (const std::size_t group : beside) {
-        const std::vector<FaceId>& faces = groups.faces.at(group);
-        if (std::ranges::any_of(faces, [&](FaceId face) { return looks_inside(face, group); }))
-            result.insert(result.end(), faces.begin(), faces.end());
-    }
-    return result;
+    for (const std::size_t group : near)
+        if (!hollow.contains(group) && std::ranges::any_of(groups.faces.at(group), [&](FaceId face) {
+                return looks_inside(face, group);
+            }))
+            neck.insert(group);
+    return neck;
 }
 
 } // namespace
@@ -248,8 +249,15 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
     for (const auto& [root, faces] : groups.faces) {
         check_cancelled(context);
         if (!take(faces)) continue;
-        const std::vector<FaceId> wider = with_neck(model, groups, root, tree);
-        if (wider.size() > faces.size()) take(wider);
+        std::set<std::size_t> hollow{root};
+        std::vector<FaceId> wider = faces;
+        for (auto neck = neck_of(model, groups, hollow, tree); !neck.empty();
+             neck = neck_of(model, groups, hollow, tree)) {
+            hollow.insert(neck.begin(), neck.end());
+            for (const std::size_t group : neck)
+                std::ranges::copy(groups.faces.at(group), std::back_inserter(wider));
+            take(wider);
+        }
     }
     std::ranges::stable_sort(found, [](const Hollow& a, const Hollow& b) {
         return a.faces.front() != b.faces.front() ? a.faces.front() < b.faces.front()

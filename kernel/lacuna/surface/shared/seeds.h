@@ -25,7 +25,7 @@ enum class QuadStyle {
     kept,   ///< the face's own quads are kept; an error if it has none
     mapped, ///< mapped or submapped; an error if that is impossible
     free,   ///< filled by the planar mesher
-    rows,   ///< as `free`, with numbers of sides for a pattern: concentric loops get equal numbers
+    rows,   ///< as `free`, but several loops get numbers of sides for a pattern: equal ones if concentric
 };
 
 /// A part of an edge with its own number of sides.
