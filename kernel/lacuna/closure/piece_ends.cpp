@@ -33,10 +33,6 @@ using FaceSet = std::uint64_t;
 
 constexpr FaceSet one(std::size_t face) { return FaceSet{1} << face; }
 
-/// Whether the faces of a piece fit in a `FaceSet`. Pieces with more faces keep their ends; a piece made by a
-/// few cuts has fewer.
-bool fit_in_set(const Model& model) { return model.faces.size() <= std::numeric_limits<FaceSet>::digits; }
-
 template <class Do>
 void for_each(FaceSet set, const Do& use)
 {
@@ -336,6 +332,8 @@ std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
 }
 
 } // namespace
+
+bool fit_in_set(const Model& model) { return model.faces.size() <= std::numeric_limits<FaceSet>::digits; }
 
 ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context)
 {

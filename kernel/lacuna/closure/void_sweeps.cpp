@@ -72,7 +72,7 @@ void add_sweeps_with_branches(const Model& skin, std::vector<RoleCandidate>& swe
     const auto suits = [&](const RoleCandidate& way) {
         return has_pieces_with_ends(skin, way.roles, context);
     };
-    if (sweeps.empty() || std::ranges::any_of(sweeps, suits)) return;
+    if (sweeps.empty() || !fit_in_set(skin) || std::ranges::any_of(sweeps, suits)) return;
     for (RoleCandidate& way : less_likely(skin, all_faces(skin), {.branches = true}, suits, context))
         if (suits(way)) sweeps.push_back(std::move(way));
 }

@@ -136,36 +136,51 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
 struct FaceGroups {
     std::map<std::size_t, std::vector<FaceId>> faces;
     std::map<std::size_t, std::set<std::size_t>> beside;
-    std::vector<Triangle> skin;          ///< facets of all groups
-    std::vector<std::size_t> group_of{}; ///< by facet
+    std::vector<std::size_t> seen; ///< by face: the group that it looks at; `kNoIndex` if it looks outside
 };
+
+/// The group that each face looks at, along the normal of its largest facet.
+std::vector<std::size_t> groups_seen(const Model& model,
+                                     const std::map<std::size_t, std::vector<FaceId>>& groups,
+                                     const RunContext& context)
+{
+    std::vector<Triangle> skin;
+    std::vector<std::size_t> group_of; // by facet
+    for (const auto& [group, faces] : groups)
+        for (const FaceId face : faces) {
+            std::ranges::copy(model[face].triangles, std::back_inserter(skin));
+            group_of.resize(skin.size(), group);
+        }
+    const geometry::FacetTree tree(model.points, skin, context);
+    std::vector<std::size_t> seen(model.faces.size(), kNoIndex);
+    const auto area = [&](const Triangle& t) { return facet_area_vector(model, t).squaredNorm(); };
+    for (const auto& [group, faces] : groups)
+        for (const FaceId face : faces) {
+            const Triangle& t = *std::ranges::max_element(model[face].triangles, {}, area);
+            const Vec3 out = facet_area_vector(model, t).stableNormalized();
+            const auto hit = tree.first_along(facet_centre(model, t) + model.tolerance * out, out);
+            if (hit.triangle >= 0) seen[face.index()] = group_of[index(hit.triangle)];
+        }
+    return seen;
+}
 
 /// The groups that enclose the mouth of a hollow, such as the neck of a T-slot: those beside it of which a
 /// face looks at the hollow or at another group beside it.
 /// @param hollow  groups of the hollow
-/// @param tree  of the groups' facets
-std::set<std::size_t> neck_of(const Model& model, const FaceGroups& groups,
-                              const std::set<std::size_t>& hollow, const geometry::FacetTree& tree)
+std::set<std::size_t> neck_of(const FaceGroups& groups, const std::set<std::size_t>& hollow)
 {
     std::set<std::size_t> near = hollow, neck;
     for (const std::size_t group : hollow)
         if (const auto found = groups.beside.find(group); found != groups.beside.end())
             near.insert(found->second.begin(), found->second.end());
-    const auto looks_inside = [&](FaceId face, std::size_t group) {
-        const std::vector<Triangle>& facets = model[face].triangles;
-        const Triangle& t = *std::ranges::max_element(
-            facets, {}, [&](const Triangle& f) { return facet_area_vector(model, f).squaredNorm(); });
-        const Vec3 out = facet_area_vector(model, t).stableNormalized();
-        const auto hit = tree.first_along(facet_centre(model, t) + model.tolerance * out, out);
-        if (hit.triangle < 0) return false;
-        const std::size_t seen = groups.group_of[index(hit.triangle)];
-        return seen != group && near.contains(seen);
-    };
-    for (const std::size_t group : near)
-        if (!hollow.contains(group) && std::ranges::any_of(groups.faces.at(group), [&](FaceId face) {
-                return looks_inside(face, group);
-            }))
+    for (const std::size_t group : near) {
+        const auto looks_inside = [&](FaceId face) {
+            const std::size_t seen = groups.seen[face.index()];
+            return seen != group && near.contains(seen);
+        };
+        if (!hollow.contains(group) && std::ranges::any_of(groups.faces.at(group), looks_inside))
             neck.insert(group);
+    }
     return neck;
 }
 
@@ -219,12 +234,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
     }
     FaceGroups groups;
     for (const std::vector<FaceId>& shell : shells)
-        for (const FaceId face : shell) {
-            const std::size_t group = hang.find(face.index());
-            groups.faces[group].push_back(face);
-            std::ranges::copy(model[face].triangles, std::back_inserter(groups.skin));
-            groups.group_of.resize(groups.skin.size(), group);
-        }
+        for (const FaceId face : shell) groups.faces[hang.find(face.index())].push_back(face);
     for (std::size_t e = 0; e < fold.size(); ++e) {
         const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
         if (uses.size() != 2) continue;
@@ -233,7 +243,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
         groups.beside[a].insert(b);
         groups.beside[b].insert(a);
     }
-    const geometry::FacetTree tree(model.points, groups.skin, context);
+    groups.seen = groups_seen(model, groups.faces, context);
     std::vector<Hollow> found;
     const auto take = [&](std::vector<FaceId> faces) {
         std::sort(faces.begin(), faces.end());
@@ -251,8 +261,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
         if (!take(faces)) continue;
         std::set<std::size_t> hollow{root};
         std::vector<FaceId> wider = faces;
-        for (auto neck = neck_of(model, groups, hollow, tree); !neck.empty();
-             neck = neck_of(model, groups, hollow, tree)) {
+        for (auto neck = neck_of(groups, hollow); !neck.empty(); neck = neck_of(groups, hollow)) {
             hollow.insert(neck.begin(), neck.end());
             for (const std::size_t group : neck)
                 std::ranges::copy(groups.faces.at(group), std::back_inserter(wider));

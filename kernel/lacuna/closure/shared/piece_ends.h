@@ -27,6 +27,10 @@ struct ReadPieces {
     std::size_t changed = 0;
 };
 
+/// Whether a piece has at most 64 faces, so that its ends are searched. Pieces with more faces keep their
+/// ends; a piece made by a few cuts has fewer.
+bool fit_in_set(const topology::Model& model);
+
 /// Choose the ends of closed cut pieces again, if some piece cannot be swept between its current ends.
 ///
 /// A plane that crosses an end obliquely leaves pieces in which the cut face is adjacent to the rest of that
@@ -38,11 +42,11 @@ struct ReadPieces {
 /// it touches the ends of both along the same edges. Pieces without such ends, or with missing faces, are
 /// unchanged.
 /// @throw Cancelled
-/// @note  O(ends² · faces) per piece, for at most 600 ends; pieces with more than 40 faces are unchanged.
+/// @note  O(ends² · faces) per piece, for at most 600 ends; pieces with more than 64 faces are unchanged.
 ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context = {});
 
 /// Whether a volume is closed and its source and target meet the conditions of `read_ends()`; false for more
-/// than 40 faces.
+/// than 64 faces.
 bool walls_run_between_ends(const topology::OpenVolume& volume);
 
 /// Whether columns of cells can run from end to end of a closed volume. Conditions:
