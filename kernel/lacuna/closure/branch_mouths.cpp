@@ -17,6 +17,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 namespace lacuna::closure {
 
@@ -235,6 +236,13 @@ private:
         }
     }
 
+    /// The regions on the two sides of a mouth.
+    [[nodiscard]] std::pair<std::size_t, std::size_t> regions_beside(const Mouth& mouth) const
+    {
+        const std::span<const FaceUse> users = model_.uses_of_edge(mouth.edges.front());
+        return {result_.region[users[0].face.index()], result_.region[users[1].face.index()]};
+    }
+
     /// Make one main body of a region without ends, such as the ball of a valve, and two tubes that leave it:
     /// of those with ends, the two that are most opposite to each other.
     /// @return  whether there is such a region, with three tubes or more; two mouths are removed
@@ -246,9 +254,7 @@ private:
             std::vector<std::pair<std::size_t, Vec3>> tubes; // number of the mouth, direction from the hub
             const Vec3 middle = centroid_of(model_, result_.faces[hub]);
             for (std::size_t m = 0; m < result_.mouths.size(); ++m) {
-                const std::span<const FaceUse> users = model_.uses_of_edge(result_.mouths[m].edges.front());
-                const std::size_t a = result_.region[users[0].face.index()],
-                                  b = result_.region[users[1].face.index()];
+                const auto [a, b] = regions_beside(result_.mouths[m]);
                 if (a == b || (a != hub && b != hub)) continue;
                 ++count;
                 if (result_.ends[a == hub ? b : a].empty()) continue;
@@ -276,9 +282,7 @@ private:
     /// Decide which side of a mouth is the main body. @return false if the line is not a mouth.
     bool set_sides(Mouth& mouth)
     {
-        const std::span<const FaceUse> users = model_.uses_of_edge(mouth.edges.front());
-        mouth.host = result_.region[users[0].face.index()];
-        mouth.branch = result_.region[users[1].face.index()];
+        std::tie(mouth.host, mouth.branch) = regions_beside(mouth);
         if (mouth.host == mouth.branch) return false;
         const auto worth = [&](std::size_t region) {
             const bool source = std::ranges::any_of(result_.faces[region], [&](FaceId face) {

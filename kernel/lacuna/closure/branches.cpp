@@ -469,7 +469,7 @@ private:
                 Loop loop{half};
                 loop.uses.push_back({dip, use_to(model, half.back()) != model[dip].from});
                 const std::string name = partition_name(model);
-                VoidFilling filling = fill(work, {loop}, nullptr, {.words = name, .is_cut = true}, context_);
+                VoidFilling filling = fill_cut(work, {loop}, {name}, context_);
                 filling.name = name;
                 partition.face = add_void_face(work, std::move(filling), Role::wall);
                 parted.partitions.push_back(partition);

@@ -54,10 +54,7 @@ std::vector<Candidate> candidates(const Model& model, const RunContext& context)
         result.push_back(std::move(joined));
     }
     for (const Hollow& hollow : found) result.push_back({hollow.faces, hollow.mouths, hollow.volume});
-    std::ranges::stable_sort(result, [](const Candidate& a, const Candidate& b) {
-        return a.faces.front() != b.faces.front() ? a.faces.front() < b.faces.front()
-                                                  : a.faces.size() > b.faces.size();
-    });
+    std::ranges::stable_sort(result, is_listed_before, &Candidate::faces);
     const auto twice = std::ranges::unique(result, {}, &Candidate::faces);
     result.erase(twice.begin(), twice.end());
     return result;

@@ -219,8 +219,10 @@ std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const 
     return sides;
 }
 
-VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const Follower* follower,
-                 const Subject& face, const RunContext& context)
+namespace {
+
+VoidFilling fill_loops(const OpenVolume& volume, const std::vector<Loop>& loops, const Follower* follower,
+                       bool rim_tells, const Subject& face, const RunContext& context)
 {
     check_cancelled(context);
     const Model& model = volume.model;
@@ -235,8 +237,8 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
         if (auto patch = fill_round_patch(model, loops.front(), context)) return std::move(*patch);
     const bool has_sides = !sides.empty() && (!flat || crossing);
     const bool bent = !flat && !has_sides;
-    auto told = bent && !crossing && !face.is_cut ? fill_as_rim_tells(model, loops, newell, context)
-                                                  : std::nullopt;
+    auto told = bent && !crossing && rim_tells ? fill_as_rim_tells(model, loops, newell, context)
+                                               : std::nullopt;
     VoidFilling result;
     if (has_sides) {
         try {
@@ -264,6 +266,20 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
     }
     result.loops = loops;
     return result;
+}
+
+} // namespace
+
+VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const Follower* follower,
+                 const Subject& face, const RunContext& context)
+{
+    return fill_loops(volume, loops, follower, true, face, context);
+}
+
+VoidFilling fill_cut(const OpenVolume& volume, const std::vector<Loop>& loops, const Subject& face,
+                     const RunContext& context)
+{
+    return fill_loops(volume, loops, nullptr, false, face, context);
 }
 
 VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,

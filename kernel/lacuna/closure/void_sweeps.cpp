@@ -73,8 +73,10 @@ void add_sweeps_with_branches(const Model& skin, std::vector<RoleCandidate>& swe
         return has_pieces_with_ends(skin, way.roles, context);
     };
     if (sweeps.empty() || !fit_in_set(skin) || std::ranges::any_of(sweeps, suits)) return;
-    for (RoleCandidate& way : less_likely(skin, all_faces(skin), {.branches = true}, suits, context))
-        if (suits(way)) sweeps.push_back(std::move(way));
+    std::vector<RoleCandidate> others = less_likely(skin, all_faces(skin), {.branches = true}, suits,
+                                                    context);
+    for (std::size_t i = 0; i < others.size(); ++i)
+        if (i == 0 || suits(others[i])) sweeps.push_back(std::move(others[i]));
 }
 
 /// The given faces among some faces of a sealed volume.

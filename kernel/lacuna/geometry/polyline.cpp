@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/shared/polyline.h>
 
+#include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/angle.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ Vec3 centre_of_ring(std::span<const Vec3> points)
         sum += (b - a).norm() * (a + b) / 2;
         length += (b - a).norm();
     }
-    return length > 0 ? Vec3(sum / length) : points.empty() ? Vec3(Vec3::Zero()) : points.front();
+    return length > 0 ? Vec3(sum / length) : mean_point(points);
 }
 
 PolylinePlace place_at(std::span<const double> arc_lengths, double s)

@@ -22,11 +22,11 @@ EndsMap::EndsMap(const OpenVolume& volume, std::span<const LinkingSurface> links
     // The target's harmonic map may fold at concave places of the source's outline. It does not fold in a
     // circle (Tutte 1963, Floater 1997), but there the distances along the rims and between the lines differ
     // more from those in space.
-    lay_source(false);
-    if (one_to_one_) lay_target(links, known);
-    if (one_to_one_) return;
-    lay_source(true);
-    if (one_to_one_) lay_target(links, known);
+    for (const bool disc : {false, true}) {
+        lay_source(disc);
+        if (one_to_one_) lay_target(links, known);
+        if (one_to_one_) return;
+    }
 }
 
 void EndsMap::lay_source(bool disc)

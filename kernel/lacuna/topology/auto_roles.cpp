@@ -311,7 +311,7 @@ private:
     }
 
     /// Find the candidates with ends at several heights: one end consists of all flat patches that face one
-    /// way, the other of all flat patches that face the opposite way; with branches, caps are flat as well.
+    /// way, the other of all flat patches that face the opposite way. With branches, caps count as flat.
     /// The two ends together have at least three patches. If one end is a single patch, it is the source.
     void find_stepped()
     {

@@ -212,6 +212,11 @@ void orient_skin(Model& model, const RunContext& context)
         if ((volume_integral(model, parts[p]) > 0) == inner[p]) flip_faces(model, parts[p]);
 }
 
+bool is_listed_before(const std::vector<FaceId>& a, const std::vector<FaceId>& b)
+{
+    return a.front() != b.front() ? a.front() < b.front() : a.size() > b.size();
+}
+
 std::vector<Hollow> hollows(const Model& given, const RunContext& context)
 {
     const std::vector<FaceId> outer = outer_faces(given);
@@ -268,10 +273,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
             take(wider);
         }
     }
-    std::ranges::stable_sort(found, [](const Hollow& a, const Hollow& b) {
-        return a.faces.front() != b.faces.front() ? a.faces.front() < b.faces.front()
-                                                  : a.faces.size() > b.faces.size();
-    });
+    std::ranges::stable_sort(found, is_listed_before, &Hollow::faces);
     return found;
 }
 

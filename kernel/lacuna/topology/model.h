@@ -74,7 +74,7 @@ struct Face {
     std::shared_ptr<const geometry::ExactSurface> surface; ///< null if only facets are known
     std::vector<Quad> given_quads; ///< the mesh that was given with the face, model points; may be empty
     bool keeps_nodes = false;      ///< given as a mesh: its quads and the nodes of its rim are kept
-    bool tube = false;             ///< part of a face that was given with a smooth junction of tubes
+    bool tube = false;             ///< a tube that was divided off a smooth junction
 
     std::vector<Loop> loops; ///< derived from the triangles, see `with_loops()`; the longest first
 };

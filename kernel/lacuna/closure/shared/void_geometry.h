@@ -15,7 +15,6 @@ namespace lacuna::closure {
 struct Subject {
     std::string words;
     std::vector<NamedEntity> entity{};
-    bool is_cut = false; ///< inside the volume: its rim tells nothing about its surface
 };
 
 /// Facets of a void face, not yet in the model.
@@ -52,6 +51,9 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// @throw NotClosed  names the face and the edges that cross.
 VoidFilling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
                  const Follower* follower, const Subject& face, const RunContext& context = {});
+/// As `fill()`, for a face that cuts the volume: no quadric that its rim lies on determines it.
+VoidFilling fill_cut(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
+                     const Subject& face, const RunContext& context = {});
 
 /// Triangulate a missing end with the shape of a given surface. The heights of the end over the Newell plane
 /// of the loops are those of the surface, plus the harmonic extension of the difference at the loops.

@@ -18,8 +18,8 @@ std::vector<double> arc_lengths(std::span<const Vec3> points);
 /// Length of a polyline; 0 for fewer than two points [model length].
 double length(std::span<const Vec3> points);
 
-/// Centroid of the closed polyline through points, the last of which is not the first. Unlike their mean, it
-/// does not depend on how densely they lie.
+/// Centroid of the closed polyline through points; the first point is not repeated at the end. It does not
+/// depend on how densely the points lie, as their mean does. Zero for no points.
 Vec3 centre_of_ring(std::span<const Vec3> points);
 
 /// Estimated sag: the largest distance between the polyline and a smooth curve through its points [model

@@ -106,7 +106,7 @@ struct Seeds {
     std::set<FaceId> tubes;         ///< faces meshed as a grid round a tube (`is_tube()`)
     std::set<FaceId> kept;          ///< faces whose own quads are kept
     RimRows rows;                   ///< rows of boundary layers along the rim
-    std::vector<std::string> notes; ///< a line for each given mesh that is not kept
+    std::vector<std::string> notes; ///< for the user: given meshes and sides that are changed
     [[nodiscard]] int count(EdgeId edge) const;
     /// Positions of the nodes of an edge as fractions, including both ends.
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;

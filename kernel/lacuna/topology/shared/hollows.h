@@ -27,6 +27,10 @@ struct Hollow {
     double volume = 0;         ///< with each rim closed by a cone to the centre of the faces [model length³]
 };
 
+/// The order in which sets of faces are listed: by their first faces, then the largest first.
+/// @pre both ascending, not empty
+bool is_listed_before(const std::vector<FaceId>& a, const std::vector<FaceId>& b);
+
 /// The hollows of closed skins. Hollow: a set of faces that are connected over concave or smooth edges, and
 /// that face the space between them. A skin inside another skin is one hollow, whatever its orientation: it
 /// surrounds a void in the solid. Outer skins as a whole and skins with free edges are not hollows. Hollows
