@@ -114,3 +114,37 @@ TEST_CASE("a counterbore is meshed from its wall and its floor, which has the na
         }
     }
 }
+
+TEST_CASE("a round groove across an end gets the sides that the volume needs, and not many more")
+{
+    const test::TempFolder folder;
+    for (const double radius : {0.5, 1.0, 1.8}) {
+        for (const double height : {2.5, 5.0, 10.0}) {
+            CAPTURE(radius);
+            CAPTURE(height);
+            const std::string script =
+                "SetFactory(\"OpenCASCADE\");\nBox(1)={-2,0,0,4,4," + std::to_string(height) +
+                "};\nCylinder(2)={0,-1,0,0,6,0," + std::to_string(radius) +
+                "};\nBooleanDifference(3)={ Volume{1}; Delete; }{ Volume{2}; Delete; };\n";
+            const Model model = cad::load({folder.write("groove.geo", script)});
+            Roles roles;
+            for (std::size_t f = 0; f < model.faces.size(); ++f) {
+                const double z = face_centroid(model, FaceId(f)).z();
+                const bool source = std::abs(z - height) < 1e-6;
+                const bool target = std::abs(z) < 1e-6 || model.faces[f].kind == "cylinder";
+                (source ? roles.source : target ? roles.target : roles.walls).emplace_back(f);
+            }
+            REQUIRE(roles.target.size() >= 3);
+            const OpenVolume volume = open_volume(model, roles);
+            sweep::SweepOptions options, any;
+            options.size = any.size = [](const Vec3&) { return 2; };
+            any.volume_share = 0;
+            const sweep::Swept swept = sweep::sweep(volume, options), coarse = sweep::sweep(volume, any);
+            test::check_valid(swept.mesh);
+            const double exact = 4 * (4 * height - std::numbers::pi * radius * radius / 2);
+            const double off = quality::measure(swept.mesh).volume / exact - 1;
+            CHECK(std::abs(off) <= options.volume_share);
+            if (swept.mesh.quads.size() > coarse.mesh.quads.size()) CHECK(off > options.volume_share / 3);
+        }
+    }
+}

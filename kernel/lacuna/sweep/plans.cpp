@@ -68,8 +68,7 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
             {.turned = true,
              .keeps_end = true,
              .why = formatted("swept from the {}, which came with quads; the {} did not", target, source)});
-    const bool turned = !kept && options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
-                        surface::inner_edges(volume, Role::source).empty();
+    const bool turned = !kept && lies_on_target(volume, options);
     Plan first{.turned = turned};
     if (turned)
         first.why = formatted("swept from the {}, whose faces meet in edges; the {} is one face", target,
@@ -86,6 +85,12 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
 }
 
 } // namespace
+
+bool lies_on_target(const OpenVolume& volume, const SweepOptions& options)
+{
+    return options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
+           surface::inner_edges(volume, Role::source).empty();
+}
 
 std::vector<Plan> plans(const OpenVolume& volume, const SweepOptions& asked, KnownLinks& links,
                         const RunContext& context)

@@ -8,11 +8,14 @@
 #include <lacuna/surface/shared/rim_breaks.h>
 #include <lacuna/surface/shared/shape_size.h>
 #include <lacuna/surface/shared/wall_columns.h>
+#include <lacuna/sweep/detail/plans.h>
+#include <lacuna/sweep/detail/turned_round.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -56,34 +59,87 @@ double area_of(const OpenVolume& volume, Role end)
     return area;
 }
 
+/// For each side of each facet of a face: the angle by which the face bends there [radian], negative where it
+/// is concave, and the facet beside it. Zero, and the facet itself, on the boundary.
+std::vector<std::array<std::pair<double, std::size_t>, 3>> bends_of_facets(const Model& model,
+                                                                           const Face& face)
+{
+    std::vector<std::array<std::pair<double, std::size_t>, 3>> bends(face.triangles.size());
+    std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> first; // facet and side
+    for (std::size_t f = 0; f < face.triangles.size(); ++f) {
+        const Triangle& t = face.triangles[f];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = t[k], b = t[(k + 1) % 3];
+            bends[f][k].second = f;
+            const auto [other, fresh] = first.try_emplace(edge_key(a, b), f, k);
+            if (fresh) continue;
+            const auto [g, j] = other->second;
+            const Vec3 along = (model.at(b) - model.at(a)).stableNormalized();
+            const Vec3 own = facet_area_vector(model, t).stableNormalized();
+            const Vec3 beside = facet_area_vector(model, face.triangles[g]).stableNormalized();
+            const double turn = std::atan2(beside.cross(own).dot(along), own.dot(beside));
+            bends[f][k] = {turn, g};
+            bends[g][j] = {turn, f};
+        }
+    }
+    return bends;
+}
+
 /// The volume that a mesh loses on an end because of the end's own curvature. Creases with nodes at both ends
 /// lose nothing.
+/// @param scale  length of the end's sides, relative to the size
+/// @param per_turn  sides for a full turn of a rim; 0: the rims do not limit the sides
 double lost_on_end(const OpenVolume& volume, Role end, double scale, const SweepOptions& options,
-                   const surface::SizeField& size, const std::set<Index>& kept)
+                   const surface::SizeField& size, int per_turn, const std::set<Index>& kept)
 {
     const Model& model = volume.model;
     double lost = 0;
+    // The normal of the end, if its faces look the same way; the opposite halves of a tube do not.
+    Vec3 normal = Vec3::Zero();
+    double areas = 0;
+    for (const FaceId id : volume.faces(end)) {
+        normal += face_area_vector(model, id);
+        areas += face_area_vector(model, id).norm();
+    }
+    const double alike = normal.norm() / areas;
+    normal.stableNormalize();
     for (const FaceId id : volume.faces(end)) {
         const Face& face = model[id];
         // Sides of order 2 lie on exact surfaces and lose nothing there. On facets they may have been kept
         // straight for better cells.
         if (face.kind == "plane" || (options.order > 1 && face.surface != nullptr)) continue;
-        // Quads are paved in the plane, so they are longer on a steep end.
-        const double steep = std::sqrt(face_area(model, id) / face_area_vector(model, id).norm());
-        const double longer = scale * kLonger * std::min(steep, kSteepest);
-        std::unordered_map<std::uint64_t, const Triangle*> first;
-        for (const Triangle& t : face.triangles) {
+        const auto bends = bends_of_facets(model, face);
+        const auto side = [&](std::size_t f, std::size_t k) -> Vec3 {
+            return model.at(face.triangles[f][(k + 1) % 3]) - model.at(face.triangles[f][k]);
+        };
+        double first = 0, second = 0; // the two largest bends of each facet
+        for (std::size_t f = 0; f < bends.size(); ++f) {
+            std::array<double, 3> here{};
+            for (std::size_t k = 0; k < 3; ++k) here[k] = std::abs(bends[f][k].first) * side(f, k).norm();
+            std::ranges::sort(here);
+            first += here[2];
+            second += here[1];
+        }
+        if (first == 0) continue;
+        // Quads are even in the plane, so they are longer on a steep end. If a face bends in one direction
+        // only, such as a cylinder, its rims bend as it does, so its sides are also limited as theirs are.
+        const Vec3 own = face_area_vector(model, id);
+        const double flat = std::lerp(own.norm(), std::abs(own.dot(normal)), alike);
+        const double steep = std::min(std::sqrt(face_area(model, id) / flat), kSteepest);
+        for (std::size_t f = 0; f < bends.size(); ++f) {
             for (std::size_t k = 0; k < 3; ++k) {
-                const Index a = t[k], b = t[(k + 1) % 3];
-                const auto [other, fresh] = first.try_emplace(edge_key(a, b), &t);
-                if (fresh || (kept.contains(a) && kept.contains(b))) continue;
-                const Vec3 side = model.at(b) - model.at(a);
-                const Vec3 own = facet_area_vector(model, t).stableNormalized();
-                const Vec3 beside = facet_area_vector(model, *other->second).stableNormalized();
-                const double turn = std::atan2(beside.cross(own).dot(side.stableNormalized()),
-                                               own.dot(beside));
-                if (turn == 0) continue;
-                lost -= side.norm() * lost_by(turn, longer * size((model.at(a) + model.at(b)) / 2));
+                const auto [turn, beside] = bends[f][k];
+                const Index a = face.triangles[f][k], b = face.triangles[f][(k + 1) % 3];
+                if (turn == 0 || (kept.contains(a) && kept.contains(b))) continue;
+                const double length = side(f, k).norm();
+                const double area = facet_area_vector(model, face.triangles[f]).norm() +
+                                    facet_area_vector(model, face.triangles[beside]).norm();
+                const double by_size = steep * kLonger * size((model.at(a) + model.at(b)) / 2);
+                const double by_turn = per_turn > 0
+                                           ? steep * kFullTurn * area / (std::abs(turn) * length * per_turn)
+                                           : kInfinity;
+                const double longest = scale * std::lerp(std::min(by_size, by_turn), by_size, second / first);
+                lost -= length * lost_by(turn, longest) / 2; // two facets share the side
             }
         }
     }
@@ -91,11 +147,11 @@ double lost_on_end(const OpenVolume& volume, Role end, double scale, const Sweep
 }
 
 double lost_on_ends(const OpenVolume& volume, const SweepOptions& options, const surface::SizeField& size,
-                    const std::set<Index>& kept)
+                    int per_turn, const std::set<Index>& kept)
 {
     const double scale = std::sqrt(area_of(volume, Role::target) / area_of(volume, Role::source));
-    return std::abs((lost_on_end(volume, Role::source, 1, options, size, kept) +
-                     lost_on_end(volume, Role::target, scale, options, size, kept)) /
+    return std::abs((lost_on_end(volume, Role::source, 1, options, size, per_turn, kept) +
+                     lost_on_end(volume, Role::target, scale, options, size, per_turn, kept)) /
                     closure::enclosed_volume(volume));
 }
 
@@ -282,7 +338,7 @@ public:
 
     VolumePlan by_default()
     {
-        on_ends_ = lost_on_ends(volume_, options_, size_, {});
+        on_ends_ = lost_on_ends(volume_, options_, size_, 0, {});
         Sides sides{options_.curvature};
         const double quads = area_of(volume_, Role::source) / std::pow(size_(volume_.model.points[0]), 2);
         const double least = std::min(kLeastPart, std::sqrt(quads / kMostForEnds));
@@ -305,8 +361,9 @@ public:
     }
 
     /// If the requested sides lose too much, choose sides that lose six tenths of the allowed share, which
-    /// leaves the rest for the layers. A polygon of n sides lacks 2 π² / (3 n²) of its circle's area. If that
-    /// is not enough, sides are added as long as each step clearly reduces the loss.
+    /// leaves the rest for the layers. What ends lose falls with the square of the number of sides. A polygon
+    /// of n sides lacks 2 π² / (3 n²) of its circle's area; if that is not enough for the rims, sides are
+    /// added as long as each step clearly reduces the loss.
     VolumePlan by_numbers()
     {
         constexpr double kOfShare = 0.6, kHelps = 0.75;
@@ -315,12 +372,18 @@ public:
         const auto wanted = static_cast<int>(std::ceil(std::sqrt(turn2 / (3 * kOfShare * share))));
         follow({});
         int sides = options_.curvature;
-        if (lost_on_ends(volume_, options_, size_, {}) > share)
-            on_ends_ = lost_on_ends(volume_, options_, surface::shape_size(volume_, size_, {sides, 0}).at,
-                                    {});
-        for (double lost = lost_by_numbers(sides); lost > share;) {
+        const auto on_rims = [&](int per_turn) { return std::abs(rims_->off({per_turn, kFewer}, 0)); };
+        if (lost_on_ends(volume_, options_, size_, sides, {}) > share) {
+            const OpenVolume laid_out = lies_on_target(volume_, options_) ? turned_round(volume_) : volume_;
+            const double lost = lost_on_ends(laid_out, options_,
+                                             surface::shape_size(laid_out, size_, {sides, 0}).at, sides, {});
+            if (lost > share)
+                sides = std::min(surface::kMostPerTurn,
+                                 static_cast<int>(std::ceil(sides * std::sqrt(lost / (kOfShare * share)))));
+        }
+        for (double lost = on_rims(sides); lost > share;) {
             const int more = std::max(sides + sides / 4 + 1, wanted);
-            const double left = lost_by_numbers(more);
+            const double left = on_rims(more);
             if (more > surface::kMostPerTurn || left > kHelps * lost) break;
             sides = more;
             lost = left;
@@ -331,14 +394,6 @@ public:
     }
 
 private:
-    /// The relative loss on the rims or on the ends, whichever is larger. The quads of the ends are as long
-    /// as the sides of the rims.
-    double lost_by_numbers(int per_turn)
-    {
-        const double fewer = static_cast<double>(options_.curvature) / per_turn;
-        return std::max(std::abs(rims_->off({per_turn, kFewer}, 0)), on_ends_ * fewer * fewer);
-    }
-
     /// Compute the wall model of a mesh that has nodes at the given breaks.
     void follow(const surface::RimBreaks& breaks)
     {
@@ -360,7 +415,7 @@ private:
         const surface::RimBreaks breaks = facets_.breaks(sides.per_turn, size_);
         follow(breaks);
         ends_ = on_ends_ > kLostByEnds && !breaks.points.empty()
-                    ? lost_on_ends(volume_, options_, size_, breaks.points)
+                    ? lost_on_ends(volume_, options_, size_, 0, breaks.points)
                     : on_ends_;
         const double share = left() - std::min(kLostByEnds, ends_);
         if (std::abs(rims_->off(sides, 0)) > share) return false;

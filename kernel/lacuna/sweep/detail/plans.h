@@ -24,14 +24,17 @@ struct Plan {
     std::string why{};        ///< for the report: why this plan is the first; may be empty
 };
 
+/// Whether quads are laid out on the target first, unless an end keeps quads: the target has several faces,
+/// whose inner edges become mesh edges, the source has one, and the option `rows` is not used.
+bool lies_on_target(const topology::OpenVolume& volume, const SweepOptions& options);
+
 /// The ways to mesh a volume, best first.
 ///
 /// If the source keeps given quads, the only plan sweeps from it. With boundary layers and quads from a
 /// neighbour, a second plan sweeps from the target. If the source keeps no quads, the first plan sweeps from
 /// the given source to the target. It sweeps from the target instead
 /// - if only the target has given quads;
-/// - if neither end has given quads, only the target has several faces (whose inner edges become mesh edges),
-///   and the option `rows` is not used.
+/// - if neither end has given quads, and `lies_on_target()`.
 ///
 /// The next plans are a common rotation of all loops, if the walls of some loop do not determine its
 /// rotation; the sweep from the other end; and quads laid out between the outlines of both ends. Plans with
