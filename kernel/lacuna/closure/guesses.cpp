@@ -407,7 +407,7 @@ void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
     assume(closure,
            Message("closure.flat_assumed",
                    "flat faces are assumed in the circles beside {}: {}. Part of a ball, a cone or a ring "
-                   "can end in such a circle, too, and half a ball would change the volume by {:.2g} %",
+                   "can end in such a circle, too, and half a ball would change the volume by {:.0f} %",
                    given_beside(model, flat), entities_of(model, flat), 100 * half_ball / enclosed)
                .remedy("if a true face is not flat or has a hole, give it"),
            1, Assumed::straight);

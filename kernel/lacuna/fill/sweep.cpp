@@ -213,11 +213,10 @@ auto attempted(std::string_view what, std::vector<std::string>& notes, const Run
 }
 
 /// The least scaled Jacobian of the hexahedra of a mesh.
-double least_of(const FilledParts& mesh)
+double least_of(std::span<const sweep::Swept> parts)
 {
     double least = 1;
-    for (const sweep::Swept& part : mesh.swept.parts)
-        least = std::min(least, part.quality.min_scaled_jacobian);
+    for (const sweep::Swept& part : parts) least = std::min(least, part.quality.min_scaled_jacobian);
     return least;
 }
 
@@ -247,13 +246,12 @@ public:
             return std::optional(sweep_pieces_true(sealed_, pieces, options_, sized_, own));
         });
         if (!mesh) return;
-        const std::pair worth(hex_share(*mesh), least_of(*mesh));
+        const std::pair worth(hex_share(*mesh), least_of(parts(*mesh)));
         if (!(worth > std::pair(share_, least_))) return;
-        notes.push_back(formatted("note: no {} fills the volume{}; the report says why [{}]",
-                                  is_cut || divided ? "single sweep" : "likely sweep",
-                                  is_cut    ? ", so it is cut into pieces"
-                                  : divided ? " as it is, so its rounds are divided"
-                                            : ", so other faces are its ends",
+        notes.push_back(formatted("note: {}; the report says why [{}]",
+                                  is_cut    ? "the volume is cut into pieces"
+                                  : divided ? "the rounds at the rims of the volume's ends are divided"
+                                            : "other faces than the likely ones are the volume's ends",
                                   why_.code()));
         mesh->swept.report.insert(mesh->swept.report.begin(), std::move(cut));
         best_ = std::move(mesh);
@@ -421,6 +419,34 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     return filled;
 }
 
+/// Sweep a volume once. If cells are poor, and the ends are not the user's, the volume is also swept in
+/// pieces, and the mesh whose worst cell is better is taken. Only the notes of that mesh are logged.
+/// @param pieces, told  as for `sweep_once()` and `sweep_in_pieces()`
+Filled sweep_once_or_better(const Volume& volume, bool pieces, bool told, const SweepRequest& request,
+                            const RunContext& context)
+{
+    const sweep::LayerSpec& layers = request.options.layers;
+    if (!may_cut(volume, false) || volume.along || layers.count > 0 || !layers.heights.empty())
+        return sweep_once(volume, pieces, request, context);
+    std::vector<std::string> notes, notes_of_pieces;
+    RunContext own = context;
+    own.log = [&](std::string_view line) { notes.emplace_back(line); };
+    Filled filled = sweep_once(volume, pieces, request, own);
+    if (const double least = least_of(parts(filled)); least < kPoorCell) {
+        const Message why("quality.below_limit", "the least scaled Jacobian of a single sweep is {:.2g}",
+                          found(least));
+        auto better = attempted("in pieces", notes_of_pieces, context, [&](const RunContext& other) {
+            return sweep_in_pieces(volume, why, told, request, other);
+        });
+        if (better && least_of(parts(*better)) > least + kVisible) {
+            filled = std::move(*better);
+            notes = std::move(notes_of_pieces);
+        }
+    }
+    for (const std::string& note : notes) log_line(context, note);
+    return filled;
+}
+
 std::vector<std::string>& report_of(Filled& filled)
 {
     if (auto* parts = std::get_if<FilledParts>(&filled.mesh)) return parts->swept.report;
@@ -457,7 +483,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
             log_line(context, failed.back());
         };
         try {
-            Filled filled = sweep_once(now, pieces, request, context);
+            Filled filled = sweep_once_or_better(now, pieces, told, request, context);
             if (!failed.empty())
                 failed.push_back(formatted("roles: swept {} instead, which encloses the same volume",
                                            ends_in_words(filled.volumes.front().volume)));

@@ -30,12 +30,6 @@ using namespace topology;
 
 namespace {
 
-/// Maximum ratio of the length of an edge to the length of its image on the other end. Edges that shrink more
-/// are not imprinted, because quads on the other end would have to be smaller by the same factor. Examples:
-/// the floor edge of a tube that is three radii deep inside an end stays below the limit; at a depth of 16
-/// radii, a ring would need 49,000 sides. Heuristic.
-constexpr double kMostShrunk = 20;
-
 /// A chain in the plane: the edge of the source that it represents, and its image on the target.
 struct Border {
     EdgeId source; ///< edge of the new model

@@ -192,6 +192,29 @@ std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
     return surface::imprint_target(volume, links, size);
 }
 
+/// Refuse a target with quads that are far smaller than those of the source, compared with the whole ends.
+/// Example: the floor of a long tube inside the source.
+void check_shrinking(const mesh::HexMesh& mesh)
+{
+    const std::size_t top = index(mesh.nodes_per_layer * mesh.layers);
+    const auto area = [&](const Quad& q, std::size_t first) {
+        const auto at = [&](std::size_t k) -> const Vec3& { return mesh.nodes[first + index(q[k])]; };
+        return (at(2) - at(0)).cross(at(3) - at(1)).norm();
+    };
+    double source = 0, target = 0, most = 0;
+    for (const Quad& q : mesh.quads) {
+        source += area(q, 0);
+        target += area(q, top);
+        most = std::max(most, area(q, 0) / area(q, top));
+    }
+    if (const double shrunk = std::sqrt(most * target / source); shrunk > surface::kMostShrunk)
+        throw NotSweepable(Message("surface.not_imprinted",
+                                   "the image of the source on the target is {:.2g} times smaller in some "
+                                   "places than on the whole",
+                                   found(shrunk))
+                               .remedy("choose other faces as source and target"));
+}
+
 /// One sweep, stage by stage.
 class SweepBetween {
 public:
@@ -275,8 +298,8 @@ private:
         walls_ = walls_to_be ? walls_to_be->take() : mesh_walls(context_);
         columns_ = columns_of(links, source_, planned_.heights, walls_);
         if (outline == Outline::mean && !options_.wedges)
-            source_ = laid_between(*split_, std::move(source_), columns_, size_,
-                                   mesher_of(options_, sizes_), context_);
+            source_ = laid_between(*split_, std::move(source_), columns_, size_, mesher_of(options_, sizes_),
+                                   context_);
         for (std::string& note : source_.notes) result_.report.push_back("source " + note);
         for (const surface::WallMesh& wall : walls_) {
             for (const std::string& note : wall.notes) result_.report.push_back("walls: " + note);
@@ -380,6 +403,7 @@ private:
                                                       options_.min_scaled_jacobian)
                                      : prove_or_improve(result_, volume_.model, faces_, still,
                                                         std::move(held_), options_, context_);
+        if (!good_ && !motion_ && !keeps_target_) check_shrinking(result_.mesh);
         const quality::Quality& quality = proof.quality;
         result_.min_scaled_jacobian = quality.min_scaled_jacobian;
         const std::string wedges = quality.wedges > 0 ? formatted(" hexahedra and {} wedges", quality.wedges)

@@ -11,6 +11,12 @@
 
 namespace lacuna::surface {
 
+/// Maximum ratio of lengths on one end to those of their image on the other end. Ends that shrink more are
+/// refused, because quads on the other end would have to be smaller by the same factor. Examples: the floor
+/// edge of a tube that is three radii deep inside an end stays below the limit; at a depth of 16 radii, a
+/// ring would need 49,000 sides. Heuristic.
+inline constexpr double kMostShrunk = 20;
+
 /// The part of a target edge to which a source edge is swept.
 struct EdgeImage {
     EdgeId target; ///< edge of the volume's target
