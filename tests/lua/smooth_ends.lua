@@ -113,6 +113,14 @@ if has_cad and version then
     end
   end
 
+  -- With a limit that no mesh meets, all partitions are tried, and the refusal is about the limit.
+  if check.whole then
+    local tube = made("Cylinder(1) = { 0, 0, 0, 0, 0, 104.5, 10 }; Sphere(2) = { 0, 0, 0, 10, -Pi/2, 0 };"
+      .. "BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };")
+    local fine, why = pcall(function() tube:open_volume {}:sweep { size = 8, min_scaled_jacobian = 0.99 } end)
+    check.that(not fine and why.code == "quality.below_limit", tostring(why))
+  end
+
   -- A tube with a branch has no bottom that blends into its walls: an end there has a rim.
   local tee = made("Cylinder(1) = { -8, 0, 0, 16, 0, 0, 3 }; Cylinder(2) = { 0, 0, 0, 0, 0, 8, 2 };"
     .. "BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };")

@@ -263,10 +263,10 @@ protected:
                 if (b < a) std::ranges::reverse(line.places);
             }
             if (line.places.empty()) return {};
-            const WalkImprint made = imprint(volume_, walks, plane, context_);
+            WalkImprint made = imprint(volume_, walks, plane, context_);
             for (std::size_t f = whole_.size(); f < made.parent.size(); ++f)
                 whole_.push_back(whole_[made.parent[f].index()]);
-            lines.push_back(made.lines.back());
+            lines = std::move(made.lines); // the earlier ones may have been divided
             line.places.clear();
             for (const Index p : use_points(model_, lines.back())) line.places.push_back({p});
         }

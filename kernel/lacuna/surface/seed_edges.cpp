@@ -181,11 +181,12 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     piece.least = std::max(1, bends);
 }
 
-/// Add a note if edges whose nodes are kept, but which no face with given quads uses, have sides longer than
-/// twice the size.
+/// Add a note if edges of given triangles whose nodes are kept, and which no face with given quads uses, have
+/// sides longer than twice the size.
 void note_coarse_edges(const SeedTask& task, Seeds& seeds)
 {
     const auto has_quads = [&](const FaceUse& use) { return !task.model[use.face].given_quads.empty(); };
+    const auto is_given = [&](const FaceUse& use) { return task.model[use.face].keeps_nodes; };
     const auto is_coarse = [&](EdgeId edge, const SeedPiece& piece) {
         if (!piece.fixed) return false;
         SeedPiece by_size = piece;
@@ -194,7 +195,8 @@ void note_coarse_edges(const SeedTask& task, Seeds& seeds)
     };
     std::vector<EdgeId> coarse;
     for (const auto& [edge, pieces] : seeds.pieces)
-        if (std::ranges::none_of(task.model.uses_of_edge(edge), has_quads) &&
+        if (std::ranges::any_of(task.model.uses_of_edge(edge), is_given) &&
+            std::ranges::none_of(task.model.uses_of_edge(edge), has_quads) &&
             std::ranges::any_of(pieces, [&](const SeedPiece& piece) { return is_coarse(edge, piece); }))
             coarse.push_back(edge);
     if (!coarse.empty())
