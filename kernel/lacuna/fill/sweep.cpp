@@ -542,6 +542,12 @@ Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& 
     SweepRequest request = asked;
     sweep::SweepOptions& options = request.options;
     options.improving = sweep::with_shared_limits(options.improving);
+    if (const topology::Model& model = volume.volume.model; options.size && !model.points.empty())
+        if (const double size = options.size(model.points.front()); size > model.diagonal)
+            log_line(context,
+                     formatted("note: 'size' is {:.3g}, but the whole model is only {:.3g} long; check "
+                               "the unit, and 'scale' if the file was loaded with it",
+                               size, model.diagonal));
     const bool on_axis = volume.along && volume.along->on_axis &&
                          (options.wedges || options.fallback == sweep::Fallback::wedges);
     Filled filled = on_axis ? turn_at_axis(volume, request, context) : sweep_or_name_tets(options, [&] {

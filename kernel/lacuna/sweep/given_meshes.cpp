@@ -47,13 +47,16 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
     given.notes = std::move(rows.notes);
     for (const surface::GivenColumns& columns : given.columns) {
         if (columns.quads && layers > 0 && layers != columns.rows) {
-            throw NotSweepable(Message("sweep.given_rows",
-                                       "the walls were given with {} rows of quads between source and "
-                                       "target, but {} layers are requested",
-                                       needed(columns.rows), found(layers))
-                                   .remedy("leave out 'layers'{}", options.beside.own_mesh
-                                                                       ? ", or load with keep_mesh = false"
-                                                                       : ""));
+            throw NotSweepable(
+                Message("sweep.given_rows",
+                        "the walls were given with {} rows of quads between source and target, but the "
+                        "sweep has {} layers",
+                        needed(columns.rows), found(layers))
+                    .remedy("leave out 'layers'{}",
+                            options.beside.own_mesh ? ", or load with keep_mesh = false"
+                            : options.beside.settle
+                                ? ", or cut the volumes beside so that their rows continue"
+                                : ""));
         }
     }
     if (asked.empty() || options.layers.heights.empty()) {
