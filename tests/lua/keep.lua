@@ -202,4 +202,91 @@ do
     end
   end
 end
+-- Tunnels along two or three axes through a graded block: nodes on the edges where tunnels meet, which lie
+-- inside the volume between the pieces that it is cut into, are kept as well.
+do
+  local function tunnels(axes, power, sides, arm)
+    local model, points = lacuna.model(), {}
+    local in_cube, in_arm = {}, {}
+    for axis = 1, 3 do
+      in_cube[axis], in_arm[axis] = {}, {}
+      for k = 0, sides[axis] do in_cube[axis][k] = 10 * (k / sides[axis]) ^ power end
+      for k = 0, arm do in_arm[axis][k] = 8 * k / arm end
+    end
+    local function face(name, axis, low, across, at)
+      local along, width = in_arm[axis], in_cube[across]
+      local own, cells = {}, {}
+      for j = 0, arm do
+        for i = 0, #width do
+          local p = {}
+          p[axis] = low and -along[j] or 10 + along[j]
+          p[across], p[6 - axis - across] = width[i], at
+          own[#own + 1] = p
+          points[#points + 1] = p
+        end
+      end
+      for j = 0, arm - 1 do
+        for i = 1, #width do
+          local a = j * (#width + 1) + i
+          cells[#cells + 1] = { a, a + 1, a + #width + 2, a + #width + 1 }
+        end
+      end
+      model:add_face { name = name, points = own, cells = cells, keep_mesh = true }
+    end
+    for _, axis in ipairs(axes) do
+      for _, low in ipairs { true, false } do
+        for across = 1, 3 do
+          if across ~= axis then
+            for _, at in ipairs { 0, 10 } do
+              face(("tunnel_%d_%s_%d_%d"):format(axis, low and "low" or "high", across, at), axis, low, across,
+                at)
+            end
+          end
+        end
+      end
+    end
+    if #axes == 2 then
+      local u, v = axes[1], axes[2]
+      for _, at in ipairs { 0, 10 } do
+        local own, cells = {}, {}
+        local n = #in_cube[u]
+        for j = 0, #in_cube[v] do
+          for i = 0, n do
+            local p = {}
+            p[u], p[v], p[6 - u - v] = in_cube[u][i], in_cube[v][j], at
+            own[#own + 1] = p
+            points[#points + 1] = p
+          end
+        end
+        for j = 0, #in_cube[v] - 1 do
+          for i = 1, n do
+            local a = j * (n + 1) + i
+            cells[#cells + 1] = { a, a + 1, a + n + 2, a + n + 1 }
+          end
+        end
+        model:add_face { name = "floor_" .. at, points = own, cells = cells, keep_mesh = true }
+      end
+    end
+    return model, points
+  end
+  for _, axes in ipairs { { 1, 2, 3 }, { 1, 2 } } do
+    for _, power in ipairs { 1, 1.2, 1.6 } do
+      for _, sides in ipairs { { 4, 4, 4 }, { 3, 4, 5 } } do
+        local model, points = tunnels(axes, power, sides, 4)
+        local mesh = model:open_volume { faces = model:faces() }:sweep {}
+        local nodes = {}
+        for i = 1, mesh.nodes do
+          local x, y, z = mesh:node(i)
+          nodes[("%.9g %.9g %.9g"):format(x + 0.0, y + 0.0, z + 0.0)] = true
+        end
+        local lost = 0
+        for _, p in ipairs(points) do
+          if not nodes[("%.9g %.9g %.9g"):format(p[1] + 0.0, p[2] + 0.0, p[3] + 0.0)] then lost = lost + 1 end
+        end
+        check.equal(lost, 0, ("%d axes, power %g, %d sides"):format(#axes, power, sides[1]))
+        check.near(mesh:quality().volume, 1000 + 1600 * #axes, 1e-6)
+      end
+    end
+  end
+end
 check.done()

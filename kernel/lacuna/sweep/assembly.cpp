@@ -372,6 +372,7 @@ private:
         if (options.order > 1) give_middles(options.second_order);
         options.beside.between = shared_faces_of(m);
         options.beside.own_mesh = came_with_mesh(member);
+        options.beside.given = member.volume;
         OpenVolume volume = *member.volume, sealed = *member.volume;
         give_edge_nodes(volume, plan_.nodes[m]);
         // A member with an explicit option `quads` also keeps the quads of a neighbour that was meshed first.

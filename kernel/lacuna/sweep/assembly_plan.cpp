@@ -102,11 +102,13 @@ public:
             // if the planned number of sides differs.
             const bool gives_way = edges_.kept(e) == SameEdges::Kept::rim &&
                                    edges_.given_sides(e) != counts_.sides_of(e);
-            if (!(counts_.is_planned(e) || gives_way) || !counts_.is_on_frame(e)) continue;
+            const bool placed = (counts_.is_planned(e) || gives_way) && counts_.is_on_frame(e);
+            if (!placed && !is_kept_elsewhere(e)) continue;
             auto found = nodes.find(edges_.set_of(e));
             if (found == nodes.end()) {
-                const std::size_t one = exact_one(e);
-                std::vector<Vec3> made = at_home(places(one, counts_.sides_of(e)), one);
+                const std::size_t one = placed ? exact_one(e) : *edges_.kept_one(edges_.set_of(e));
+                const int sides = placed ? counts_.sides_of(e) : edges_.given_sides(one);
+                std::vector<Vec3> made = at_home(places(one, sides), one);
                 found = nodes.emplace(edges_.set_of(e), std::move(made)).first;
             }
             std::vector<Vec3> own = from_home(found->second, e);
@@ -254,6 +256,15 @@ private:
                 plan.nodes[m].push_back({line[u].edge, std::move(own)});
             }
         }
+    }
+
+    /// Whether quads of another member, but none of the own member, are given with nodes on an edge. Such an
+    /// edge lies between faces of cuts.
+    [[nodiscard]] bool is_kept_elsewhere(std::size_t e) const
+    {
+        const std::size_t* kept = edges_.kept_one(edges_.set_of(e));
+        return kept != nullptr && edges_.kept(*kept) == SameEdges::Kept::quads &&
+               edges_.kept(e) == SameEdges::Kept::no && edges_.members()[edges_[e].member].fixed == nullptr;
     }
 
     /// Whether an edge was imprinted into a face, which continues on both sides.

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/given_meshes.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/surface/shared/given_target.h>
 #include <lacuna/sweep/detail/place_order.h>
 
@@ -87,7 +88,7 @@ std::set<FaceId> given_faces(const OpenVolume& volume, std::set<FaceId> faces, b
     return faces;
 }
 
-void report_given(const OpenVolume& volume, Swept& swept, bool wedges)
+void report_given(const OpenVolume& volume, Swept& swept, const SweepOptions& options)
 {
     const Model& model = volume.model;
     std::vector<Vec3> skin;
@@ -101,12 +102,20 @@ void report_given(const OpenVolume& volume, Swept& swept, bool wedges)
             }
             std::ranges::sort(skin, before);
         }
-        const bool whole = has_cells_to_keep(face, wedges && volume.role[f] != Role::wall);
+        const bool whole = has_cells_to_keep(face, options.wedges && volume.role[f] != Role::wall);
         const std::set<Index> nodes = nodes_to_keep(model, face, whole);
-        const auto coincide = std::ranges::count_if(
-            nodes, [&](Index point) { return std::ranges::binary_search(skin, model.at(point), before); });
+        const auto is_lost = [&](Index point) {
+            return !std::ranges::binary_search(skin, model.at(point), before);
+        };
+        const auto lost = static_cast<std::size_t>(std::ranges::count_if(nodes, is_lost));
+        const bool keeps = options.quads == Quads::automatic || options.quads == Quads::keep;
+        if (lost > 0 && whole && keeps && swept.not_kept.empty())
+            swept.notes.push_back(
+                formatted("given: {} of {} nodes of {} are not nodes of the mesh, such as the one at {}",
+                          lost, nodes.size(), entity_of(model, FaceId(f)),
+                          place_with_digits(model.at(*std::ranges::find_if(nodes, is_lost)), 4)));
         swept.report.push_back(formatted("given: {}: {} of {}{} nodes coincide", entity_of(model, FaceId(f)),
-                                         coincide, nodes.size(), whole ? "" : " rim"));
+                                         nodes.size() - lost, nodes.size(), whole ? "" : " rim"));
     }
 }
 

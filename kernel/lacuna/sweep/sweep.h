@@ -95,6 +95,9 @@ struct Beside {
     /// The shape with which the skin is compared; its faces have the ids of the volume's faces. Null: the
     /// volume.
     const topology::OpenVolume* shape = nullptr;
+    /// The volume as it was given, before it got nodes and quads of its neighbours; its faces have the ids of
+    /// the volume's faces. The report counts its given nodes in the mesh. Null: the volume.
+    const topology::OpenVolume* given = nullptr;
     /// Faces between this volume and others, which are not part of the outer skin; see `FidelityOptions`.
     std::set<FaceId> between{};
     /// Faces with quads copied from a neighbour. These quads are kept whatever the option `quads` is.

@@ -412,7 +412,7 @@ private:
             formatted("cells: {}{}, all certified, scaled Jacobian {:.6f} at least, {:.6f} on "
                       "average",
                       quality.hexes, wedges, quality.min_scaled_jacobian, quality.mean_scaled_jacobian));
-        report_given(volume_, result_, options_.wedges);
+        report_given(options_.beside.given != nullptr ? *options_.beside.given : volume_, result_, options_);
         result_.quality = quality;
         return {std::move(result_), std::move(proof), faces_, seeds_->kept};
     }

@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/limits.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/side_points.h>
@@ -491,17 +492,36 @@ private:
         remesher_.add(use.edge, at, nodes);
     }
 
-    /// Check that given meshes of other faces at the edge have the same number of nodes on it.
+    /// Check that given meshes of other faces at the edge have the same nodes on it.
     void check_other_meshes(EdgeId edge, const std::vector<RimNode>& nodes) const
     {
         const std::vector<Index>& old = model_[edge].points;
         for (const FaceUse& user : remesher_.users(edge)) {
-            if (user.face == face_ || !model_[user.face].keeps_nodes || old.size() == nodes.size()) continue;
+            const Face& other = model_[user.face];
+            if (user.face == face_ || !other.keeps_nodes) continue;
+            if (!other.given_quads.empty() && old.size() == nodes.size()) check_same_places(edge, nodes);
+            if (old.size() == nodes.size()) continue;
             throw InvalidInput(Message("topology.meshes_differ",
                                        "the mesh for {} has {} nodes on {}, but the mesh of {} has {}",
                                        entity_of(model_, face_), found(nodes.size()), entity_of(model_, edge),
                                        entity_of(model_, user.face), needed(old.size()))
                                    .remedy("give both meshes the same nodes on the edge"));
+        }
+    }
+
+    /// Check that no given node of an edge would move.
+    void check_same_places(EdgeId edge, const std::vector<RimNode>& nodes) const
+    {
+        for (const Index point : model_[edge].points) {
+            const auto off = [&](const RimNode& n) { return (model_.at(n.point) - model_.at(point)).norm(); };
+            const double least = off(*std::ranges::min_element(nodes, {}, off));
+            if (least > model_.tolerance)
+                throw InvalidInput(Message("topology.meshes_differ",
+                                           "the mesh for {} has no node at {} on {}, where a given quad has "
+                                           "one; its nearest node is {:.3g} away",
+                                           entity_of(model_, face_), place_with_digits(model_.at(point), 4),
+                                           entity_of(model_, edge), found(least))
+                                       .remedy("give both meshes the same nodes on the edge"));
         }
     }
 

@@ -30,7 +30,8 @@ GivenMeshes given_meshes(const topology::OpenVolume& volume, std::vector<surface
 std::set<FaceId> given_faces(const topology::OpenVolume& volume, std::set<FaceId> faces, bool wedges);
 
 /// A line of the report for each face that keeps its nodes, with the number of nodes that the mesh contains.
-/// @param wedges  whether triangles of the ends are kept as well.
-void report_given(const topology::OpenVolume& volume, Swept& swept, bool wedges);
+/// Also a note, if quads were to be kept, lost nodes, and no other line says why.
+/// @param volume  as it was given.
+void report_given(const topology::OpenVolume& volume, Swept& swept, const SweepOptions& options);
 
 } // namespace lacuna::sweep
