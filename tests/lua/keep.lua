@@ -289,4 +289,29 @@ do
     end
   end
 end
+
+-- Quads of an .obj file are facets, not given cells: a size applies to them.
+do
+  local path = os.tmpname()
+  for _, n in ipairs { 4, 12 } do
+    local lines = {}
+    for level = 0, 1 do
+      for k = 0, n - 1 do
+        local t = 2 * math.pi * k / n
+        lines[#lines + 1] = ("v %.9f %.9f %d"):format(6 * math.cos(t), 6 * math.sin(t), 50 * level)
+      end
+    end
+    for k = 1, n do
+      lines[#lines + 1] = ("f %d %d %d %d"):format(k, k % n + 1, n + k % n + 1, n + k)
+    end
+    check.write(path .. ".obj", table.concat(lines, "\n") .. "\n")
+    local duct = lacuna.load(path .. ".obj")
+    check.equal(duct:face(1).has_mesh, false)
+    local mesh = duct:open_volume():sweep { size = 5 }
+    check.near(mesh:quality().volume, 25 * 36 * n * math.sin(2 * math.pi / n), 1)
+    check.that(mesh.layers >= 10, n .. " sides")
+    os.remove(path .. ".obj")
+  end
+  os.remove(path)
+end
 check.done()

@@ -177,7 +177,9 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
         check_cancelled(context);
         FacetFile file = facets_of(*deck, options.tolerance / options.scale);
         const bool is_mesh = format_of(deck->format).is_mesh;
-        file.soup.label_keeps_nodes.assign(file.label_tag.size(), options.keep_mesh && is_mesh ? 1 : 0);
+        const bool keeps = options.keep_mesh && is_mesh;
+        file.soup.label_keeps_nodes.assign(file.label_tag.size(), keeps ? 1 : 0);
+        if (!keeps) split_quads(file.soup);
         append(all, std::move(file));
         if (is_mesh) loaded.decks.push_back(std::move(deck));
     }
@@ -188,7 +190,6 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     }
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
-    if (!options.keep_mesh) split_quads(all.soup);
     // Names may be equal or missing, so during splitting each face is named by the number of its label.
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
