@@ -190,6 +190,33 @@ for _, shape in ipairs(cornered) do
   end
 end
 
+-- Long facets of a source are split, so that its target follows a bent face between their corners.
+for _, lean in ipairs { 0, 0.3 } do
+  for _, shape in ipairs { regular(4), ell, ring(16, 0.5), regular(32) } do
+    local roof, points, cells, n = lacuna.model(), {}, {}, 48
+    local function height(x, y) return 1 + lean * x + 0.25 * cos(2 * x) * sin(1.5 * y + 1) end
+    for j = 0, n do
+      for i = 0, n do
+        local x, y = 3 * i / n - 1.5, 3 * j / n - 1.5
+        points[#points + 1] = { x, y, height(x, y) }
+        if i < n and j < n then
+          local a = j * (n + 1) + i + 1
+          cells[#cells + 1] = { a, a + 1, a + n + 2 }
+          cells[#cells + 1] = { a, a + n + 2, a + n + 1 }
+        end
+      end
+    end
+    roof:add_face { name = "roof", points = points, cells = cells }
+    local mesh = sweep(open(shape, { to = roof:face "roof" }), { layers = 2, size = 0.1 })
+    local worst = 0
+    for i = 1, mesh.nodes do
+      local x, y, z = mesh:node(i)
+      if z > 0.75 * height(x, y) then worst = math.max(worst, math.abs(z - height(x, y))) end
+    end
+    check.that(worst < 0.02, ("%g off the face"):format(worst))
+  end
+end
+
 -- --- given walls -----------------------------------------------------------------------------------------
 
 -- A wall over the side y = -1 of a square, of `rows` by `columns` facets, bent outward by `bulge`; the path

@@ -334,7 +334,7 @@ struct MotionMaker {
     geometry::Motion operator()(const Along::ToFace& along) const
     {
         refuse_distortion("to");
-        return motion_to_face(swept.source, along);
+        return motion_to_face(swept.source, along, context);
     }
     void refuse_distortion(const char* name) const
     {

@@ -5,18 +5,24 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/side_points.h>
 
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <unordered_set>
 #include <utility>
 
 namespace lacuna::closure {
@@ -158,6 +164,144 @@ void shift_points(Model& model, const std::vector<Vec3>& by)
     model = std::move(builder).finish();
 }
 
+/// Splits the facets of a source that moves onto a face along one direction. A moved facet is flat between
+/// its corners, but the face may not be.
+class FacetRefiner {
+public:
+    /// @param reach  for each point: its distance from the face.
+    FacetRefiner(Model model, const geometry::FacetTree& face, const Vec3& way, std::vector<double> reach)
+        : model_(std::move(model)), face_(face), way_(way), reach_(std::move(reach))
+    {
+        for (const double distance : reach_) allowed_ = std::max(allowed_, kAlikeSizes * distance);
+        for (const Face& own : model_.faces) {
+            if (!own.keeps_nodes) continue;
+            for (const Triangle& t : own.triangles)
+                for (std::size_t k = 0; k < 3; ++k) kept_.insert(edge_key(t[k], t[(k + 1) % 3]));
+        }
+    }
+
+    /// Split facets at the middle of their longest sides, until none deviates from the face by more than a
+    /// hundredth of the largest distance. Sides of given cells stay, and so do sides below that deviation.
+    /// @return  for each point: its distance from the face.
+    const std::vector<double>& run(const RunContext& context)
+    {
+        for (Index first = 0;;) { // the first point of the last round
+            check_cancelled(context);
+            std::map<std::uint64_t, std::array<Index, 2>> split;
+            for (const Face& face : model_.faces)
+                for (const Triangle& t : face.triangles)
+                    if (*std::ranges::max_element(t) >= first) check(t, split);
+            if (split.empty()) break;
+            first = static_cast<Index>(model_.points.size());
+            split_sides(split);
+        }
+        if (worst_ > 0)
+            log_line(context, formatted("note: along: the target is up to {:.3g} away from the face given as "
+                                        "'to', near {}: given cells of the source stay, and their images are "
+                                        "flat; load the source with keep_mesh = false",
+                                        worst_, place_with_digits(worst_at_, 4)));
+        return reach_;
+    }
+
+    Model model() && { return std::move(model_).finish(); }
+
+private:
+    /// Largest distance of a moved facet from the face, at its centroid and at the quarters of its sides.
+    [[nodiscard]] double deviation(const Triangle& t) const
+    {
+        double most = 0;
+        const auto sample = [&](double a, double b, double c) {
+            const Vec3 place = a * model_.at(t[0]) + b * model_.at(t[1]) + c * model_.at(t[2]);
+            const double flat = a * reach_[index(t[0])] + b * reach_[index(t[1])] + c * reach_[index(t[2])];
+            const geometry::FacetTree::RayHit hit = face_.first_along(place, way_);
+            if (hit.triangle >= 0) most = std::max(most, std::abs(hit.t - flat));
+        };
+        sample(1.0 / 3, 1.0 / 3, 1.0 / 3);
+        for (const double part : {0.25, 0.5, 0.75}) {
+            sample(1 - part, part, 0);
+            sample(0, 1 - part, part);
+            sample(part, 0, 1 - part);
+        }
+        return most;
+    }
+
+    /// Check a facet, and add its longest side to those that are split if it deviates from the face.
+    void check(const Triangle& t, std::map<std::uint64_t, std::array<Index, 2>>& split)
+    {
+        const double off = deviation(t);
+        if (!(off > allowed_)) return;
+        const auto length = [&](std::size_t k) {
+            return (model_.at(t[(k + 1) % 3]) - model_.at(t[k])).norm();
+        };
+        const std::size_t k = std::ranges::max(std::array<std::size_t, 3>{0, 1, 2}, {}, length);
+        const std::uint64_t key = edge_key(t[k], t[(k + 1) % 3]);
+        if (!kept_.contains(key)) {
+            if (length(k) > allowed_) split.try_emplace(key, std::array{t[k], t[(k + 1) % 3]});
+        } else if (off > worst_) {
+            worst_ = off;
+            worst_at_ = (model_.at(t[0]) + model_.at(t[1]) + model_.at(t[2])) / 3;
+        }
+    }
+
+    /// Split sides in the middle. New points lie on exact curves and surfaces.
+    void split_sides(const std::map<std::uint64_t, std::array<Index, 2>>& split)
+    {
+        const std::size_t first = model_.points.size();
+        SidePoints sides;
+        for (const auto& [key, side] : split) {
+            sides.add(side[0], side[1], {static_cast<Index>(model_.points.size())});
+            model_.points.emplace_back((model_.at(side[0]) + model_.at(side[1])) / 2);
+        }
+        std::set<Index> on_curves;
+        for (Edge& edge : model_.edges) split_edge(edge, sides, on_curves);
+        for (Face& face : model_.faces) {
+            cut_at_sides(model_.points, face, sides);
+            if (!face.surface || face.kind == "plane") continue;
+            for (std::size_t t = 0; t < face.triangles.size(); ++t)
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (const Index p = face.triangles[t][k]; index(p) >= first && !on_curves.contains(p))
+                        face.surface->project({&model_.points[index(p)], 1}, {&face.uv[t][k], 1});
+        }
+        auto side = split.begin();
+        for (std::size_t p = first; p < model_.points.size(); ++p, ++side) {
+            const auto& [a, b] = side->second;
+            const geometry::FacetTree::RayHit hit = face_.first_along(model_.points[p], way_);
+            // At the rim, rounding may make the ray miss the face.
+            reach_.push_back(hit.triangle < 0 ? (reach_[index(a)] + reach_[index(b)]) / 2 : hit.t);
+        }
+    }
+
+    void split_edge(Edge& edge, const SidePoints& sides, std::set<Index>& on_curves)
+    {
+        std::vector<Index> points{edge.points.front()};
+        std::vector<double> params;
+        if (!edge.params.empty()) params.push_back(edge.params.front());
+        for (std::size_t i = 1; i < edge.points.size(); ++i) {
+            for (const Index made : sides.on(edge.points[i - 1], edge.points[i])) {
+                points.push_back(made);
+                if (edge.params.empty()) continue;
+                params.push_back((edge.params[i - 1] + edge.params[i]) / 2);
+                if (!edge.curve) continue;
+                edge.curve->evaluate({&params.back(), 1}, {&model_.points[index(made)], 1});
+                on_curves.insert(made);
+            }
+            points.push_back(edge.points[i]);
+            if (!edge.params.empty()) params.push_back(edge.params[i]);
+        }
+        edge.points = std::move(points);
+        edge.params = std::move(params);
+    }
+
+    ModelBuilder model_;
+    const geometry::FacetTree& face_;
+    Vec3 way_;
+    std::vector<double> reach_;
+    double allowed_ = 0;
+    std::unordered_set<std::uint64_t> kept_; ///< sides of given cells
+    double worst_ = 0;                       ///< largest deviation of a facet whose longest side stays
+    Vec3 worst_at_ = Vec3::Zero();
+};
+
 } // namespace
 
 Vec3 unit(const Vec3& direction, const char* name)
@@ -196,7 +340,7 @@ geometry::Motion motion_along_normals(OpenVolume& source, const Along::Normals& 
     return motion;
 }
 
-geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& to)
+geometry::Motion motion_to_face(OpenVolume& source, const Along::ToFace& to, const RunContext& context)
 {
     const Model& model = source.model;
     Vec3 way = area_vector_of(model, all_faces(model));
@@ -204,7 +348,7 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
     way = unit(way, "to");
     const auto tree = std::make_shared<const geometry::FacetTree>(to.model->points,
                                                                   (*to.model)[to.face].triangles);
-    std::vector<Vec3> reach(model.points.size(), Vec3::Zero());
+    std::vector<double> reach(model.points.size(), 0);
     for (const Face& face : model.faces) {
         for (const Index p : corners_of(face)) {
             const Vec3& place = model.at(p);
@@ -215,7 +359,7 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
                 return true;
             });
             if (least <= most && most - least <= model.tolerance) {
-                reach[index(p)] = least * way;
+                reach[index(p)] = least;
                 continue;
             }
             throw InvalidInput(Message("closure.along_to", "along: the ray from {} meets {} {}",
@@ -224,12 +368,16 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
                                    .remedy("use a face that covers the source once, seen along its normal"));
         }
     }
+    FacetRefiner refiner(std::move(source.model), *tree, way, std::move(reach));
+    std::vector<Vec3> vectors;
+    for (const double distance : refiner.run(context)) vectors.emplace_back(distance * way);
+    source.model = std::move(refiner).model();
+    const auto between = std::make_shared<const PointVectors>(source.model, std::move(vectors));
     geometry::Motion motion;
-    motion.reach = [tree, way, vectors = std::make_shared<const PointVectors>(model, std::move(reach))](
-                       const Vec3& place) -> Vec3 {
+    motion.reach = [tree, way, between](const Vec3& place) -> Vec3 {
         const geometry::FacetTree::RayHit hit = tree->first_along(place, way);
         // At the rim, rounding may make the ray miss the face.
-        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way);
+        return hit.triangle < 0 ? (*between)(place) : Vec3(hit.t * way);
     };
     return motion;
 }

@@ -18,7 +18,9 @@ Vec3 unit(const Vec3& direction, const char* name);
 geometry::Motion motion_along_normals(topology::OpenVolume& source, const Along::Normals& normals,
                                       const RunContext& context);
 
-/// The motion of a source up to another face.
-geometry::Motion motion_to_face(const topology::OpenVolume& source, const Along::ToFace& to);
+/// The motion of a source up to another face. Facets of the source are split where their images would deviate
+/// visibly from that face.
+geometry::Motion motion_to_face(topology::OpenVolume& source, const Along::ToFace& to,
+                                const RunContext& context);
 
 } // namespace lacuna::closure
