@@ -238,8 +238,8 @@ do
         for across = 1, 3 do
           if across ~= axis then
             for _, at in ipairs { 0, 10 } do
-              face(("tunnel_%d_%s_%d_%d"):format(axis, low and "low" or "high", across, at), axis, low, across,
-                at)
+              local name = ("tunnel_%d_%s_%d_%d"):format(axis, low and "low" or "high", across, at)
+              face(name, axis, low, across, at)
             end
           end
         end
