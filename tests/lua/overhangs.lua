@@ -282,6 +282,68 @@ BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])
   check.that(mesh:quality().min_scaled_jacobian > 0.3, "chamber")
 end
 
+-- Products that touch the floor along a line or at a point: where there is no mesh, both faces are named.
+local refused = 0
+for _, product in ipairs { "Cylinder(2) = {20,45,%g, 70,0,0, %g};",
+  "Cylinder(2) = {50,10,%g, 0,70,0, %g};", "Cylinder(2) = {40,30,%g, 50,30,0, %g};" } do
+  for _, lift in ipairs { 0, 1 } do
+    local model = solids("product", "Box(1) = {0,0,0, 120,90,40};  " .. product:format(15 + lift, 15))
+    local faces = model:faces()
+    for i = #faces, 1, -1 do
+      if faces[i].kind == "plane" and faces[i].box[1][3] == 40 then table.remove(faces, i) end
+    end
+    local ok, failed = pcall(function() model:open_volume { faces = faces }:sweep { size = 8 } end)
+    if lift == 0 then
+      check.that(ok or failed.code == "topology.faces_touch", tostring(failed))
+      refused = refused + (ok and 0 or 1)
+    else
+      check.that(ok or failed.code ~= "topology.faces_touch", tostring(failed))
+    end
+  end
+end
+check.that(refused > 0, "no product is refused")
+
+-- Two pipes and a pipe between them, cut between the two: the ends of each piece are its own, and mouths that
+-- closed the walls of the whole may be among them.
+for _, radius in ipairs { 7, 10 } do
+  for _, cut in ipairs { 0, 10 } do
+    local model = solids("pipes", ([[
+Cylinder(1) = {-60,-40,0, 120,0,0, 15};  Cylinder(2) = {-60,40,0, 120,0,0, 15};
+Cylinder(3) = {0,-40,0, 0,80,0, %g};
+BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };]]):format(radius))
+    local whole = model:open_volume { faces = model:faces { kind = "cylinder" }, name = "pipes" }
+    local halves = whole:cut { plane = { { 0, cut, 0 }, { 0, 1, 0 } } }
+    check.equal(#halves, 2)
+    local mesh = lacuna.assembly(halves):sweep { size = 5 }
+    local fidelity = mesh.fidelity
+    check.that(math.abs(fidelity.volume / fidelity.sealed_volume - 1) < 0.01, "pipes")
+    check.equal(mesh:quality().certified, true)
+  end
+end
+
+-- A hub with ribs: a piece that takes no ends from the whole is returned without them.
+do
+  local model = solids("hub", [[
+Cylinder(1) = {0,0,0, 0,0,10, 60};  Cylinder(2) = {0,0,0, 0,0,60, 25};
+Point(101) = {20,-4,10};  Point(102) = {55,-4,10};  Point(103) = {20,-4,56};
+Line(101) = {101,102};  Line(102) = {102,103};  Line(103) = {103,101};
+Curve Loop(101) = {101,102,103};  Plane Surface(101) = {101};
+r[] = Extrude {0,8,0} { Surface{101}; };
+t[] = Rotate {{0,0,1},{0,0,0},Pi/2} { Duplicata { Volume{r[1]}; } };
+u[] = Rotate {{0,0,1},{0,0,0},Pi} { Duplicata { Volume{r[1]}; } };
+w[] = Rotate {{0,0,1},{0,0,0},-Pi/2} { Duplicata { Volume{r[1]}; } };
+BooleanUnion(201) = { Volume{1}; Delete; }{ Volume{2, r[1], t[0], u[0], w[0]}; Delete; };
+Cylinder(202) = {0,0,-1, 0,0,70, 15};
+BooleanDifference(203) = { Volume{201}; Delete; }{ Volume{202}; Delete; };]])
+  local upper = model:open_volume { name = "hub" }:cut { plane = { { 0, 0, 10 }, { 0, 0, 1 } } }[2]
+  local below, above = table.unpack(upper:cut { plane = { { 0, 4, 0 }, { 0, 1, 0 } } })
+  local low, mid = table.unpack(below:cut { plane = { { 0, -4, 0 }, { 0, 1, 0 } } })
+  for _, piece in ipairs { above, low } do
+    local first, second = table.unpack(piece:cut { plane = { { 4, 0, 0 }, { 1, 0, 0 } } })
+    check.that(first and second, "pieces of a hub")
+  end
+end
+
 -- --- levels at a rim ---------------------------------------------------------------------------------------
 
 do

@@ -44,7 +44,8 @@ public:
         std::vector<StepPiece> pieces;
         for (const Part& part : parts_) {
             Roles roles = roles_of(part);
-            if (has_part_without_end(roles)) roles = all_walls(part);
+            // Ends of the whole may not be ends of a piece: then those of the piece are to be found.
+            if (has_part_without_end(roles) || touches(roles.source, roles.target)) roles = all_walls(part);
             pieces.push_back({open_volume(model_, roles, context_), parted_.stacked ? steps_below(part) : 0});
         }
         return pieces;
@@ -154,7 +155,7 @@ private:
         return roles;
     }
 
-    /// Whether a piece has ends, and a body in it has neither: then the ends are to be found anew.
+    /// Whether a piece has ends, and a body in it has neither.
     [[nodiscard]] bool has_part_without_end(const Roles& roles) const
     {
         std::vector<FaceId> faces = roles.source;

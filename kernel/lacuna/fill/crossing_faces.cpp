@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_radius.h>
 #include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/facet_sag.h>
@@ -10,6 +11,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace lacuna::fill {
@@ -36,6 +39,59 @@ bool is_on_one_side(const std::optional<RoundShape>& round, const Corners& facet
 bool share_a_point(const Triangle& a, const Triangle& b)
 {
     return std::ranges::any_of(a, [&](Index p) { return std::ranges::find(b, p) != b.end(); });
+}
+
+/// The message that two parts touch along a line or at a point, where the volume between them has no
+/// thickness. Parts in contact over an area have a common rim, so they are one part here.
+std::optional<Message> touching_faces(const Model& model, const std::vector<Triangle>& facets,
+                                      const std::vector<FaceId>& face_of, const std::vector<double>& sag,
+                                      const std::vector<std::optional<RoundShape>>& round,
+                                      const geometry::FacetTree& tree, const RunContext& context)
+{
+    std::vector<std::size_t> part_of(model.faces.size(), 0);
+    const std::vector<std::vector<FaceId>> parts = connected_parts(model, all_faces(model));
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const FaceId face : parts[p]) part_of[face.index()] = p;
+    const auto touch = [&](Index a, Index b) -> std::optional<Vec3> {
+        const Corners mine = corners_of(model, facets[index(a)]),
+                      theirs = corners_of(model, facets[index(b)]);
+        const auto is_near = [&](const Vec3& p, const Corners& corners, double within) {
+            return geometry::closest_on_triangle(p, corners).distance2 <= within * within;
+        };
+        for (const Vec3& p : mine)
+            if (is_near(p, theirs, model.tolerance)) return p;
+        const FaceId face = face_of[index(a)];
+        const std::optional<RoundShape>& shape = round[face.index()];
+        if (!shape) return std::nullopt;
+        Vec3 inside = shape->centre; // the centre of the sphere, or the point of the axis beside the facet
+        if (shape->axis)
+            inside += shape->axis->dot((mine[0] + mine[1] + mine[2]) / 3 - inside) * *shape->axis;
+        const Vec3 p = geometry::closest_on_triangle(inside, theirs).point;
+        const bool touches = std::abs(shape->height(p)) <= model.tolerance &&
+                             is_near(p, mine, model.tolerance + sag[face.index()]);
+        return touches ? std::optional(p) : std::nullopt;
+    };
+    std::optional<std::tuple<Index, Index, Vec3>> first;
+    tree.overlaps(
+        tree,
+        [&](Index a, Index b) {
+            if (part_of[face_of[index(a)].index()] == part_of[face_of[index(b)].index()] ||
+                (first && std::pair(a, b) > std::pair(std::get<0>(*first), std::get<1>(*first))))
+                return true;
+            for (const auto& [s, t] : {std::pair(a, b), std::pair(b, a)})
+                if (const auto place = touch(s, t)) first.emplace(a, b, *place);
+            return true;
+        },
+        model.tolerance + *std::ranges::max_element(sag), context);
+    if (!first) return std::nullopt;
+    const auto& [a, b, place] = *first;
+    return Message(
+               "topology.faces_touch",
+               "{} and {} touch near ({:.4g}, {:.4g}, {:.4g}) along a line or at a point, where the volume "
+               "between them has no thickness",
+               entity_of(model, face_of[index(a)]), entity_of(model, face_of[index(b)]), place.x(), place.y(),
+               place.z())
+        .remedy("move them apart, or press one a little into the other and subtract it in the CAD system");
 }
 
 } // namespace
@@ -77,7 +133,7 @@ std::optional<Message> crossing_faces(const Model& model, const std::vector<Face
             return true;
         },
         0, context);
-    if (!first) return std::nullopt;
+    if (!first) return touching_faces(model, facets, face_of, sag, round, tree, context);
     const auto [a, b] = *first;
     const auto box = [&](Index t) {
         Eigen::AlignedBox3d own;

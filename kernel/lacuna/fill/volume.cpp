@@ -337,6 +337,33 @@ Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string
     return volume;
 }
 
+namespace {
+
+/// A piece between whose ends its walls do not run. If these ends were found for the whole, where a mouth of
+/// the piece may be a wall, the piece is read like a volume of its own.
+Volume with_own_ends(Volume piece, const RunContext& context)
+{
+    if (piece.roles_by == closure::RolesBy::person || !topology::free_edges(piece.volume).empty() ||
+        closure::walls_run_between_ends(piece.volume))
+        return piece;
+    RunContext quiet = context; // the notes on the whole were logged
+    quiet.log = nullptr;
+    RoleRequest request;
+    request.name = piece.name;
+    request.material = piece.material;
+    request.glued = piece.glued;
+    Volume own = open(piece.volume.model, request, quiet);
+    if (own.no_roles) return piece;
+    own.decks = piece.decks;
+    own.scale = piece.scale;
+    own.unit = piece.unit;
+    own.level = piece.level;
+    own.told = true;
+    return own;
+}
+
+} // namespace
+
 std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext& context)
 {
     if (volume.along && !volume.closure && !volume.along->full_turn)
@@ -368,6 +395,7 @@ std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext
             piece_of(volume, std::move(piece), volume.name.empty() ? "" : name));
         own.classification = topology::classify(own.volume);
         own.level = std::max(volume.level, own.level);
+        if (where.plane || where.model) own = with_own_ends(std::move(own), context);
     }
     return pieces;
 }
