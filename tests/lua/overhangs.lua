@@ -334,7 +334,10 @@ u[] = Rotate {{0,0,1},{0,0,0},Pi} { Duplicata { Volume{r[1]}; } };
 w[] = Rotate {{0,0,1},{0,0,0},-Pi/2} { Duplicata { Volume{r[1]}; } };
 BooleanUnion(201) = { Volume{1}; Delete; }{ Volume{2, r[1], t[0], u[0], w[0]}; Delete; };
 Cylinder(202) = {0,0,-1, 0,0,70, 15};
-BooleanDifference(203) = { Volume{201}; Delete; }{ Volume{202}; Delete; };]])
+For k In {0:3}
+  Cylinder(210+k) = {48*Cos(Pi/4+k*Pi/2), 48*Sin(Pi/4+k*Pi/2), -1, 0,0,12, 4.5};
+EndFor
+BooleanDifference(203) = { Volume{201}; Delete; }{ Volume{202, 210, 211, 212, 213}; Delete; };]])
   local upper = model:open_volume { name = "hub" }:cut { plane = { { 0, 0, 10 }, { 0, 0, 1 } } }[2]
   local below, above = table.unpack(upper:cut { plane = { { 0, 4, 0 }, { 0, 1, 0 } } })
   local low, mid = table.unpack(below:cut { plane = { { 0, -4, 0 }, { 0, 1, 0 } } })
