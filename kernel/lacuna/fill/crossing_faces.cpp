@@ -111,6 +111,7 @@ std::optional<Message> crossing_faces(const Model& model, const std::vector<Face
         sag[face.index()] = facet_sag(model, model[face]);
         round[face.index()] = round_shape(model, face);
     }
+    if (facets.empty()) return std::nullopt;
     std::optional<std::pair<Index, Index>> first;
     const auto cross = [&](Index a, Index b) {
         const FaceId one = face_of[index(a)], other = face_of[index(b)];

@@ -337,16 +337,15 @@ void add_faces(topology::ModelBuilder& model, const Facets& facets, const Flood&
             static_cast<std::size_t>(facets.label[f]) < soup.label_name.size()) {
             face.name = soup.label_name[static_cast<std::size_t>(facets.label[f])];
         }
-        if (facets.label[f] >= 0 && index(facets.label[f]) < soup.label_keeps_nodes.size() &&
-            soup.label_keeps_nodes[index(facets.label[f])] != 0)
-            face.keeps_nodes = true;
+        const bool told = facets.label[f] >= 0 && index(facets.label[f]) < soup.label_keeps_nodes.size();
+        if (told && soup.label_keeps_nodes[index(facets.label[f])] != 0) face.keeps_nodes = true;
         face.triangles.push_back(corner);
         const bool first_half = facets.quad[f] >= 0 && (f == 0 || facets.quad[f - 1] != facets.quad[f]);
         if (!first_half) continue;
         Quad quad = facets.quads[index(facets.quad[f])];
         if (flood.flipped[f]) std::swap(quad[1], quad[3]);
         face.given_quads.push_back(quad);
-        face.keeps_nodes = true;
+        if (!told) face.keeps_nodes = true;
     }
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         model.faces[f].tag = static_cast<int>(f) + 1;

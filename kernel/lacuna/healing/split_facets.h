@@ -38,14 +38,14 @@ struct SplitOptions {
 struct FacetSoup {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
-    std::vector<Quad> quads;         ///< given quads, which meshes keep; each also counts as two facets
+    std::vector<Quad> quads;         ///< given quads; each also counts as two facets
     std::vector<int> triangle_label; ///< number of the part that contains each triangle, such as an element
                                      ///< set or an STL solid; empty: all 0
     std::vector<int> quad_label;
     std::vector<std::string> label_name; ///< name of each label; labels beyond the end of the list have no
                                          ///< name
-    /// By label: whether its triangles are a mesh whose nodes must be kept; false for labels beyond the end
-    /// of the list. Nodes of quads are always kept.
+    /// By label: whether its facets are a mesh whose nodes must be kept. For labels beyond the end of the list,
+    /// those of quads are.
     std::vector<char> label_keeps_nodes;
 };
 

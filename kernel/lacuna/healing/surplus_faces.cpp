@@ -27,7 +27,7 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
         if (others.size() > 1) stay = 2; // two are needed: each is connected to another face
     }
     const auto worth = [&](FaceId f) {
-        return (model[f].given_quads.empty() ? 0 : 2) + (model[f].surface ? 1 : 0);
+        return (model[f].given_quads.empty() || !model[f].keeps_nodes ? 0 : 2) + (model[f].surface ? 1 : 0);
     };
     std::vector<FaceId> order = alike;
     std::stable_sort(order.begin(), order.end(), [&](FaceId a, FaceId b) { return worth(a) > worth(b); });

@@ -177,9 +177,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
         check_cancelled(context);
         FacetFile file = facets_of(*deck, options.tolerance / options.scale);
         const bool is_mesh = format_of(deck->format).is_mesh;
-        const bool keeps = options.keep_mesh && is_mesh;
-        file.soup.label_keeps_nodes.assign(file.label_tag.size(), keeps ? 1 : 0);
-        if (!keeps) split_quads(file.soup);
+        file.soup.label_keeps_nodes.assign(file.label_tag.size(), options.keep_mesh && is_mesh ? 1 : 0);
         append(all, std::move(file));
         if (is_mesh) loaded.decks.push_back(std::move(deck));
     }
@@ -190,6 +188,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     }
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
+    if (!options.keep_mesh) split_quads(all.soup);
     // Names may be equal or missing, so during splitting each face is named by the number of its label.
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
@@ -221,11 +220,12 @@ void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& c
     const double share = options.tolerance > 0 ? 0 : healing::kSewnShare;
     healing::StitchReport report = healing::stitch(model, model.tolerance, context, share);
     if (report.changed()) log_line(context, report.summary());
-    if (!report.notes.empty()) {
-        topology::ModelBuilder noted(std::move(model));
-        move_in(noted.notes, report.notes);
-        model = std::move(noted).finish();
-    }
+    topology::ModelBuilder stitched(std::move(model));
+    move_in(stitched.notes, report.notes);
+    // Quads of formats of facets are facets. Until here they show that a face is the same as one of a mesh.
+    for (topology::Face& face : stitched.faces)
+        if (!face.keeps_nodes) face.given_quads.clear();
+    model = std::move(stitched).finish();
     for (const Message& note : model.notes)
         log_line(context, note.is_warning() ? "note: " + note.text() : note.text());
 }

@@ -26,6 +26,7 @@ namespace lacuna::closure {
 ///    end.
 /// 4. Any other cut face becomes a missing end, together with adjacent walls in its plane. If the piece then
 ///    lacks the other end, this end is chosen from the walls, if they determine it.
+/// If the ends of a piece would touch, or a body of it would have none, all its faces are walls.
 /// @return  pieces behind the plane first.
 /// @throw NotSweepable "closure.cut_misses"  the plane crosses nothing; names the faces it touches or the
 ///         distance. "closure.cut_apart"  the volume stays in one piece, like a ring that is cut once.
