@@ -224,14 +224,17 @@ private:
         // The point may lie just outside the reach by rounding.
         if (hit.triangle < 0) hit = face_tree_.closest(point);
         facet = index(hit.triangle);
-        Vec3 bulge = shape_.bulge_at(facet, hit.barycentric);
-        // Beside a facet, the distance is to the exact edge, so the whole bulge counts. Above a facet, only
-        // the component of the bulge along the normal of the facet counts.
-        if (hit.barycentric.minCoeff() > 0) {
-            const Vec3 normal = shape_.normal(facet);
-            bulge = bulge.dot(normal) * normal;
+        // Beside a facet, the distance is to the exact edge, so the whole bulge counts, unless the point lies
+        // between the facet and this edge. There, as above a facet, only the component of the bulge along the
+        // normal of the facet counts.
+        const Vec3 bulge = shape_.bulge_at(facet, hit.barycentric), normal = shape_.normal(facet),
+                   off = point - hit.point, above = bulge.dot(normal) * normal, beside = bulge - above;
+        double share = 0;
+        if (hit.barycentric.minCoeff() <= 0 && beside.squaredNorm() > 0) {
+            share = off.dot(beside) / beside.squaredNorm();
+            if (share < 0 || share > 1) share = 1;
         }
-        return (point - hit.point - bulge).norm();
+        return (off - above - share * beside).norm();
     }
 
     // --- the face against the quads -------------------------------------------------------------------
