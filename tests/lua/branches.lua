@@ -180,6 +180,30 @@ for _, radius in ipairs(check.whole and { 0.3, 0.5, 0.7 } or { 0.5 }) do
   check.near(mesh.fidelity.volume, volume(4, cross), 0.02 * volume(4, cross))
 end
 
+-- Rows on all walls go on across the faces between arms, which have no rows of their own: every node beside
+-- the duct's flat walls is a row's height or more away from them.
+for n, radius in ipairs(check.whole and { 0.3, 0.4, 0.5, 0.6, 0.7 } or { 0.4, 0.6 }) do
+  for _, arms in ipairs(check.whole and { 1, 2 } or { n }) do
+    local branches, first = {}, 0.01 + 0.002 * n
+    for a = 1, arms do
+      branches[a] = { at = 3, side = 2 * a - 1, radius = radius, length = 1.5, role = "target",
+        lean = arms == 1 and 0.3 or nil }
+    end
+    mesh = open(duct(6, branches), branches):sweep { size = 0.3,
+      boundary_layers = { walls = "walls", first = first, growth = 1.3, count = 3 } }
+    check.equal(#mesh.regions, 2 + arms)
+    check.equal(mesh:quality().certified, true)
+    check.near(mesh.fidelity.volume, volume(6, branches), 0.01 * volume(6, branches))
+    local least = math.huge
+    for i = 1, mesh.nodes do
+      local x, y, z = mesh:node(i)
+      local height = 1 - math.max(math.abs(y), math.abs(z))
+      if x > 0.5 and x < 2 and height > 1e-6 then least = math.min(least, height) end
+    end
+    check.near(least, first, 0.02 * first)
+  end
+end
+
 -- A dimple is a wall like any other.
 local dimple = { { at = 3, side = 1, radius = 0.5, length = 0.1, role = "wall" } }
 check.equal(#open(duct(6, dimple), dimple):cut(), 1)

@@ -205,6 +205,28 @@ mesh = lacuna.assembly(halves):sweep { size = 0.3, [halves[1]] = { layers = { co
 check.equal(#mesh.regions, 2, "cut by hand, they are two")
 check.that(mesh.layers.seat_1 == 20 and mesh.layers.seat_2 == 10, "layers of each")
 
+-- Rows on all walls meet in the cuts: of one table, each wall has its rows all round, whatever the section.
+for n, sides in ipairs { 4, 6, 3 } do
+  local asked = { walls = "walls", first = 0.03 + 0.01 * n, growth = 1.2, count = n }
+  local model = ring { section = regular(sides, 0.8), walls = each(sides), turns = 192 }
+  local whole = model:open_volume { full_turn = true }
+  local plain, rows = whole:sweep { size = 0.25 }, whole:sweep { size = 0.25, boundary_layers = asked }
+  check.equal(rows:quality().certified, true)
+  check.near(rows.fidelity.volume, plain.fidelity.volume, 0.01 * plain.fidelity.volume)
+  local least = math.huge
+  local inner = 0.8 * math.cos(math.pi / sides) -- from the middle of the section to its sides
+  for i = 1, rows.nodes do
+    local x, y, z = rows:node(i)
+    local r, most = math.sqrt(x * x + y * y) - 4, -math.huge
+    for k = 1, sides do
+      local a = 2 * math.pi * (k - 0.5) / sides
+      most = math.max(most, r * math.cos(a) + z * math.sin(a))
+    end
+    if inner - most > 0.1 * asked.first then least = math.min(least, inner - most) end
+  end
+  check.near(least, asked.first, 0.05 * asked.first)
+end
+
 -- What is refused.
 local model = ring { section = square, walls = four }
 local function refused(roles, options, ...)

@@ -152,6 +152,7 @@ private:
         /// nodes.
         std::vector<Index> nodes;
         std::vector<double> lean; ///< for each row, how far its end node is offset along the run [length]
+        std::vector<double> rise; ///< for each row, height of its end node above the row's height [length]
         /// Length from this end over which the rows of the adjacent side cross the rows of the run.
         double block = 0;
         bool own = false; ///< whether the rows end on a new side, which their end nodes form
@@ -219,17 +220,20 @@ private:
                 const Vec2 off = way * (height / way.dot(normal));
                 end.nodes.push_back(add(at + off, corner));
                 end.lean.push_back(off.dot(inward));
+                end.rise.push_back(0);
                 continue;
             }
             if (r + 1 + base.nodes.size() >= n)
                 return refuse(RowsFinding::Why::off_height, corner, table, heights[r], 0);
             const Index node = front.nodes[(place + (last ? r + 1 : n - r - 1)) % n];
             const Vec2 off = partial_.at(node) - at;
-            if (std::abs(off.dot(normal) - height) > kRowOffHeight * height)
+            const double rise = off.dot(normal) - height;
+            if (rise > height || -rise > height / 2)
                 return refuse(RowsFinding::Why::off_height, corner, table, heights[r],
                               off.dot(normal) / scale);
             end.nodes.push_back(node);
             end.lean.push_back(off.dot(inward));
+            end.rise.push_back(rise);
         }
         if (!end.own && beyond >= 0) {
             const std::size_t rows = std::min(heights_of(beyond).size(), base.at.size() - 1);
@@ -251,8 +255,9 @@ private:
         // The share decreases to 0 over this multiple of the largest offset. Above 1, nodes keep their order;
         // the value was not measured.
         constexpr double kSlowly = 3;
-        const double most = std::ranges::max(end.lean |
-                                             std::views::transform([](double x) { return std::abs(x); }));
+        double most = 0;
+        for (const std::vector<double>* off : {&end.lean, &end.rise})
+            for (const double x : *off) most = std::max(most, std::abs(x));
         if (distance <= end.block) return 1;
         const double over = std::max(length - 2 * end.block, 0.0);
         const double reach = std::min(kSlowly * most, over);
@@ -285,8 +290,10 @@ private:
                 Vec2 p = foot + base.normal[k] * (heights[r] * scale_at(foot));
                 if (!run.closed) {
                     const double length = base.at.back(), here = base.at[k];
-                    p += base.along[k] * (start.lean[r] * share_of(start, here, length) -
-                                          end.lean[r] * share_of(end, length - here, length));
+                    const double low = share_of(start, here, length),
+                                 high = share_of(end, length - here, length);
+                    p += base.along[k] * (start.lean[r] * low - end.lean[r] * high) +
+                         base.normal[k] * (start.rise[r] * low + end.rise[r] * high);
                 }
                 row.push_back(add(p, base.nodes[k]));
             }

@@ -105,6 +105,8 @@ private:
         end.along = with.edge;
         end.corner = behind ? use_to(model_, with) : use_from(model_, with);
         end.inward = normal_at(face, model_[end.corner].point).cross(along).normalized();
+        end.over = normal_at(end.wall, model_[end.corner].point);
+        if (end.over.dot(end.inward) < 0) end.over = -end.over;
         const bool at_end = behind ? on.reversed : !on.reversed;
         const auto [found, fresh] = rows_.ends.try_emplace({on.edge, at_end}, end);
         if (fresh || found->second.table == end.table) return;
@@ -193,12 +195,12 @@ std::vector<FaceId> faces_named(const OpenVolume& volume, const FaceNames& names
 {
     const std::vector<FaceId> all = all_faces(volume.model);
     std::set<FaceId> found;
-    const auto add = [&](const Argument& what, const auto& is_it) {
+    const auto add = [&](const Argument& what, const auto& is_it, bool leave_inner = false) {
         bool any = false;
         for (const FaceId face : all) {
             if (!is_it(face)) continue;
-            found.insert(face);
             any = true;
+            if (!leave_inner || !names.inner.contains(face)) found.insert(face);
         }
         if (any) return;
         throw InvalidInput(Message("surface.no_such_face",
@@ -210,7 +212,8 @@ std::vector<FaceId> faces_named(const OpenVolume& volume, const FaceNames& names
         add(NamedEntity{"face", tag}, [&](FaceId f) { return is_tagged(volume.model[f], tag); });
     }
     for (const std::string& name : names.names)
-        add(formatted("\"{}\"", name), [&](FaceId f) { return is_named(volume, f, name); });
+        add(
+            formatted("\"{}\"", name), [&](FaceId f) { return is_named(volume, f, name); }, name == "walls");
     return {found.begin(), found.end()};
 }
 

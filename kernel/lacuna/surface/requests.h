@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/ids.h>
+
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +18,7 @@ struct FaceNames {
     std::vector<int> tags; ///< tags of given faces
     /// Names of given faces; "void:<n>": void face n; "source", "target": void ends; "walls": all walls.
     std::vector<std::string> names;
+    std::set<FaceId> inner{}; ///< faces between pieces of one volume, which "walls" leaves out
 };
 
 /// Rows of thin cells along selected faces.

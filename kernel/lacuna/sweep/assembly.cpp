@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>
+#include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_order.h>
@@ -16,6 +17,7 @@
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/shared/shared_middles.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/give_mesh.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
@@ -234,9 +236,24 @@ private:
 
     void plan()
     {
+        leave_out_cuts();
         grid_ = grid_of(members_);
         periodic_ = periodic_faces(members_, grid_, context_);
         plan_ = plan_assembly(members_, result_.shared, beside_, periodic_, context_);
+    }
+
+    /// Faces between two pieces of one volume are not among the walls that boundary layers name as "walls".
+    void leave_out_cuts()
+    {
+        for (AssemblyMember& member : members_)
+            for (surface::BoundaryLayer& layer : member.options.boundary_layers) layer.walls.inner.clear();
+        for (const SharedFace& face : result_.shared) {
+            const std::string& whole = members_[face.a].whole;
+            if (whole.empty() || whole != members_[face.b].whole) continue;
+            for (const auto& [m, own] : {std::pair(face.a, face.face_a), std::pair(face.b, face.face_b)})
+                for (surface::BoundaryLayer& layer : members_[m].options.boundary_layers)
+                    layer.walls.inner.insert(own);
+        }
     }
 
     void sweep_again()
@@ -350,6 +367,30 @@ private:
         return shared;
     }
 
+    /// Whether rows of a member continue in a neighbour across an end of both, so that it keeps the
+    /// neighbour's quads: the same tables apply to the walls next to this end in both, or none in both.
+    [[nodiscard]] bool rows_continue(std::size_t m, const Neighbour& n) const
+    {
+        const auto heights = [&](std::size_t member, FaceId face) {
+            const OpenVolume& volume = *members_[member].volume;
+            const surface::LayerTables tables = surface::layer_tables(
+                volume, members_[member].options.boundary_layers);
+            std::set<std::vector<double>> found;
+            for (const EdgeUse& use : uses_of(volume.model[face]))
+                if (const FaceId wall = surface::wall_on(volume, use.edge);
+                    wall.valid() && tables.at(wall) >= 0)
+                    found.insert(tables.heights[index(tables.at(wall))]);
+            return found;
+        };
+        const auto is_end = [&](std::size_t member, FaceId face) {
+            return members_[member].volume->role[face.index()] != Role::wall;
+        };
+        if (members_[m].options.boundary_layers.empty() || members_[n.other].fixed != nullptr ||
+            !is_end(m, n.own) || !is_end(n.other, n.there))
+            return false;
+        return heights(m, n.own) == heights(n.other, n.there);
+    }
+
     /// Copy the meshes of shared faces and of images of periodic faces to the member, then sweep the member.
     /// @param handed  the faces that are meshed already, in other members
     void make(std::size_t m, const std::vector<Neighbour>& handed, const RunContext& context)
@@ -380,6 +421,8 @@ private:
         // so the member paves that face itself.
         if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
             for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
+        for (const Neighbour& n : handed)
+            if (rows_continue(m, n)) options.beside.handed.insert(n.own);
         for (const auto& [own, other, from, onto] : handed) {
             hand_on(result_.parts[other], from, volume, own, onto);
             // On a void face, the neighbour's mesh defines the shape.

@@ -291,9 +291,15 @@ void EdgeCounts::find_rows()
             std::array<RowsHere, 2>& here = rows_[edges_.set_of(e)];
             for (std::size_t k = 0; k < 2; ++k) {
                 if (rows[k].places.empty()) continue;
-                if (!here[k].places.empty() && !are_alike(here[k].places, rows[k].places))
-                    refuse_rows(here[k], m, rows[k].face, e);
-                if (here[k].places.empty()) here[k] = {rows[k].places, m, rows[k].face};
+                if (here[k].places.empty()) {
+                    here[k] = {rows[k].places, m, rows[k].face, rows[k].heights};
+                    continue;
+                }
+                if (!are_alike(here[k].heights, rows[k].heights)) refuse_rows(here[k], m, rows[k].face, e);
+                // Rows of one table reach the edge at different lengths where walls lean differently.
+                ++here[k].faces;
+                for (std::size_t i = 0; i < here[k].places.size(); ++i)
+                    here[k].places[i] += (rows[k].places[i] - here[k].places[i]) / here[k].faces;
             }
             const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
                                  (here[1].places.empty() ? 0 : here[1].places.back());

@@ -17,24 +17,26 @@ using namespace topology;
 namespace {
 
 /// Set the positions of the rows that end at one end of an edge.
-void add(RowsOfEdges& rows, EdgeId edge, bool at_end, std::vector<double> places, FaceId face)
+void add(RowsOfEdges& rows, EdgeId edge, bool at_end, std::vector<double> places, FaceId face,
+         const std::vector<double>& heights)
 {
-    rows[edge][at_end ? 1 : 0] = {std::move(places), face};
+    rows[edge][at_end ? 1 : 0] = {std::move(places), face, heights};
 }
 
 /// Add the rows along walls. They end on edges of the source.
 void add_rows_of_walls(const OpenVolume& volume, const surface::LayerTables& tables, RowsOfEdges& rows)
 {
     const surface::RimRows rim = surface::rim_rows(volume, surface::linking_surfaces(volume), tables);
-    for (const auto& [at, end] : rim.ends) {
+    for (auto [at, end] : rim.ends) {
         const auto& [edge, at_end] = at;
+        end.inward = end.over; // heights over the wall are the same whatever face of an end the rows lie on
         const std::vector<double>& heights = rim.heights[index(end.table)];
         std::vector<double> places = surface::row_places(volume.model, edge, at_end, end, heights);
         if (places.size() < heights.size()) continue;
         const double length = edge_length(volume.model, edge);
         if (at_end) reverse_heights(places);
         for (double& place : places) place *= length;
-        add(rows, edge, at_end, std::move(places), end.wall);
+        add(rows, edge, at_end, std::move(places), end.wall, heights);
     }
 }
 
@@ -49,8 +51,8 @@ void add_rows_of_ends(const OpenVolume& volume, const surface::LayerTables& tabl
             for (const surface::LinkingLine& line : link.lines) {
                 if (line.line.uses.size() != 1) continue;
                 const EdgeUse use = line.line.uses.front(); // this edge runs from source to target
-                add(rows, use.edge, use.reversed == (role == Role::source),
-                    tables.heights[index(found->second)], found->first);
+                const std::vector<double>& heights = tables.heights[index(found->second)];
+                add(rows, use.edge, use.reversed == (role == Role::source), heights, found->first, heights);
             }
         }
     }

@@ -7,6 +7,7 @@
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/thickness_report.h>
+#include <lacuna/topology/shared/give_mesh.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
@@ -46,6 +47,7 @@ public:
         }
         find_ends();
         find_still();
+        find_given();
     }
 
     KeptThickness run()
@@ -62,7 +64,7 @@ public:
         }
         for (std::size_t t = 0; t < tables_.heights.size(); ++t) {
             const auto table = static_cast<int>(t);
-            report_thickness(model_, tables_, table, reached(table), kept.report);
+            report_thickness(model_, tables_, table, reached(table), reached(table, true), kept.report);
         }
         for (const auto& [node, row] : row_nodes_) {
             for (std::size_t k = 0; k <= layers_; ++k) kept.held[k * count_ + index(node)] = 1;
@@ -108,6 +110,15 @@ private:
         }
     }
 
+    static bool is_vertex(const surface::Chain& chain, double at)
+    {
+        const double slack = kSamePlace * chain.length();
+        const double nearest = chain.wrapped(at);
+        for (std::size_t u = 0; u <= chain.uses().size(); ++u)
+            if (std::abs(chain.start(u) - nearest) <= slack) return true;
+        return false;
+    }
+
     /// Find the columns and rows that must not move: those at corners, on edges between walls, and on given
     /// meshes.
     void find_still()
@@ -117,6 +128,10 @@ private:
             std::vector<char>& still = still_column_.emplace_back(n, 0);
             const auto& nodes = parts_.source.links[b];
             for (const surface::RimSegment& segment : parts_.links[b].segments) {
+                // Given nodes of one end stay there, but their columns may move in other layers.
+                if (segment.given && !is_vertex(parts_.links[b].source, segment.source_from) &&
+                    !is_vertex(parts_.links[b].target, segment.target_from))
+                    continue;
                 const auto found = std::ranges::lower_bound(nodes.source_at, segment.source_from);
                 if (found != nodes.source_at.end())
                     still[static_cast<std::size_t>(found - nodes.source_at.begin())] = 1;
@@ -126,6 +141,7 @@ private:
                 for (std::size_t k = 0; k < layers_; ++k) {
                     const FaceId left = parts_.wall_at(b, k, i + n - 1), right = parts_.wall_at(b, k, i);
                     if (left != right || has_mesh(left)) still[i] = 1;
+                    if (has_mesh(left) || has_mesh(right)) on_given_wall_.insert(parts_.rim_node(b, i));
                     if (k > 0 && parts_.wall_at(b, k - 1, i) != right) still_layers_.insert(k);
                     if (has_mesh(right)) {
                         still_layers_.insert(k);
@@ -141,9 +157,50 @@ private:
         return model_[face].keeps_nodes && !model_[face].given_quads.empty();
     }
 
+    /// Find the nodes of both ends that are given: those of kept quads, and of edges with given nodes.
+    void find_given()
+    {
+        const std::set<EdgeId> edges = kept_edges(model_);
+        given_[0].assign(count_, 0);
+        given_[1].assign(count_, parts_.target_stays ? 1 : 0);
+        for (std::size_t q = 0; q < quads().size(); ++q) {
+            if (!parts_.kept.contains(FaceId(index(parts_.source.quads.face[q])))) continue;
+            for (const Index node : quads()[q]) given_[0][index(node)] = 1;
+        }
+        for (const auto& [edge, chain] : parts_.source.on_edge) {
+            const auto image = parts_.target_edges.find(edge);
+            for (const Index node : chain) {
+                if (edges.contains(edge)) given_[0][index(node)] = 1;
+                if (image != parts_.target_edges.end() && edges.contains(image->second))
+                    given_[1][index(node)] = 1;
+            }
+        }
+        for (std::size_t b = 0; b < parts_.links.size(); ++b) {
+            const surface::Chain& target = parts_.links[b].target;
+            for (std::size_t i = 0; i < parts_.size_of(b); ++i) {
+                const std::size_t use = target.position(parts_.source.links[b].target_at[i]).use;
+                if (edges.contains(target.uses()[use].edge)) given_[1][parts_.rim_node(b, i)] = 1;
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_given(std::size_t layer, std::size_t node) const
+    {
+        return (layer == 0 && given_[0][node] != 0) || (layer == layers_ && given_[1][node] != 0);
+    }
+
     [[nodiscard]] bool stays(std::size_t layer) const
     {
-        return (layer == 0 && parts_.source_stays) || (layer == layers_ && parts_.target_stays);
+        return (layer == 0 || layer == layers_) &&
+               std::ranges::all_of(given_[layer == 0 ? 0 : 1], [](char given) { return given != 0; });
+    }
+
+    /// Put given nodes back.
+    void restore_given(const std::vector<Vec3>& before)
+    {
+        for (const std::size_t layer : {std::size_t{0}, layers_})
+            for (std::size_t node = 0; node < count_; ++node)
+                if (is_given(layer, node)) at(layer, node) = before[layer * count_ + node];
     }
 
     // --- normals ------------------------------------------------------------------------------------
@@ -200,7 +257,8 @@ private:
         return (at(to, node) - at(from, node)).dot(normal);
     }
 
-    [[nodiscard]] ReachedThickness reached(int table) const
+    /// @param of_shared  whether to measure only at nodes shared with neighbours, or only elsewhere
+    [[nodiscard]] ReachedThickness reached(int table, bool of_shared = false) const
     {
         ReachedThickness reached;
         const std::vector<double>& heights = heights_of(table);
@@ -210,12 +268,18 @@ private:
             const std::size_t n = parts_.size_of(column.link);
             const std::size_t side = column.after ? column.node : (column.node + n - 1) % n;
             for (std::size_t k = 0; k <= layers_; ++k) {
-                for (std::size_t j = 0; j < heights.size(); ++j)
+                for (std::size_t j = 0; j < heights.size(); ++j) {
+                    const auto node = index(column.nodes[j]);
+                    const bool shared = parts_.shared_rows &&
+                                        (is_given(k, node) || on_given_wall_.contains(node));
+                    if (shared != of_shared) continue;
                     reached.add(wanted(j), thickness(column, j, k),
                                 at(k, parts_.rim_node(column.link, column.node)),
                                 parts_.wall_at(column.link, std::min(k, layers_ - 1), side), j == 0);
+                }
             }
         }
+        if (of_shared) return reached;
         for (std::size_t end = 0; end < 2; ++end) {
             if (end_table_[end] != table) continue;
             const FaceId face = (end == 0 ? parts_.ends.source : parts_.ends.target).front();
@@ -251,9 +315,11 @@ private:
                     move_inside(index(node), row, k);
             }
         }
+        restore_given(before);
         spread_moves(before, false);
         spread_moves(before, true);
         put_on_ends();
+        restore_given(before);
     }
 
     /// Whether edges between faces of an end are also edges of the mesh in this layer.
@@ -558,8 +624,11 @@ private:
     std::vector<Vec3>& nodes_;
     const RunContext& context_;
     const std::size_t count_ = parts_.source.quads.nodes.size(), layers_ = index(parts_.layers);
-    std::size_t rim_ = 0;   ///< number of source nodes on the rim; they come first
-    std::set<Index> inner_; ///< source nodes on edges between faces of the source
+    std::size_t rim_ = 0; ///< number of source nodes on the rim; they come first
+    std::array<std::vector<char>, 2>
+        given_; ///< for each node of the source, and of the target: whether it is given
+    std::set<std::size_t> on_given_wall_; ///< nodes of the rim at walls with given quads
+    std::set<Index> inner_;               ///< source nodes on edges between faces of the source
     std::vector<RowColumn> columns_;
     std::map<Index, std::vector<Hold>> row_nodes_;
     std::array<int, 2> end_table_{-1, -1};

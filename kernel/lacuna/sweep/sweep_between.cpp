@@ -162,7 +162,8 @@ void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, 
 {
     if (rows.empty() || options.quads != Quads::automatic) return;
     for (const FaceId face : volume.faces(Role::source)) {
-        if (!volume.model[face].keeps_nodes || !has_cells_to_keep(volume.model[face], options.wedges))
+        if (!volume.model[face].keeps_nodes || !has_cells_to_keep(volume.model[face], options.wedges) ||
+            options.beside.handed.contains(face))
             continue;
         Message refusal("sweep.layers_given",
                         "{} keeps its given quads, so boundary layers cannot be placed along its rim",
@@ -359,9 +360,16 @@ private:
             layers = place_layers(source_.quads, target_.nodes, columns_, placement, context_);
         }
         result_.report.push_back(layers.report);
-        SweptParts parts{*split_,      *links_,         source_, walls_,
-                         ends_,        columns_.layers, {},      !seeds_->kept.empty(),
-                         keeps_target_};
+        SweptParts parts{*split_,
+                         *links_,
+                         source_,
+                         walls_,
+                         ends_,
+                         columns_.layers,
+                         {},
+                         seeds_->kept,
+                         keeps_target_,
+                         options_.beside.settle && !options_.beside.own_mesh};
         if (imprint_) {
             for (const auto& [edge, image] : imprint_->images) parts.target_edges[edge] = image.target;
         }

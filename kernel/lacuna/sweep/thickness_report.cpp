@@ -11,7 +11,8 @@ namespace lacuna::sweep {
 using namespace topology;
 
 void report_thickness(const topology::Model& model, const surface::LayerTables& tables, int table,
-                      const ReachedThickness& there, std::vector<std::string>& lines)
+                      const ReachedThickness& there, const ReachedThickness& shared,
+                      std::vector<std::string>& lines)
 {
     if (!there.face.valid() && there.asked == 0) return;
     std::vector<FaceId> faces;
@@ -26,11 +27,14 @@ void report_thickness(const topology::Model& model, const surface::LayerTables& 
                                    needed(there.off_asked), place_in_short(there.where))
                                .remedy("use fewer or thinner rows, or a smaller 'size'"));
     }
-    lines.push_back(
-        formatted("boundary layers of {}: {} {}, the first {:.2g} to {:.2g} thick ({:.2g} asked), "
-                  "each within {:.2g} % of its thickness, {:.2g} in all",
-                  entities_of(model, faces), heights.size(), heights.size() == 1 ? "row" : "rows",
-                  there.least, there.most, there.asked, 100 * there.off, heights.back()));
+    lines.push_back(formatted(
+        "boundary layers of {}: {} {}, the first {:.2g} to {:.2g} thick ({:.2g} asked), "
+        "each within {:.2g} % of its thickness, {:.2g} in all{}",
+        entities_of(model, faces), heights.size(), heights.size() == 1 ? "row" : "rows", there.least,
+        there.most, there.asked, 100 * there.off, heights.back(),
+        shared.off > kVolumeNoted
+            ? formatted("; {:.2g} to {:.2g} at faces shared with neighbours", shared.least, shared.most)
+            : std::string()));
 }
 
 } // namespace lacuna::sweep

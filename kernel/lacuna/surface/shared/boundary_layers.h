@@ -63,6 +63,7 @@ struct RimRows {
         FaceId wall;
         EdgeId along; ///< the edge that the rows run along
         Vec3 inward;  ///< perpendicular to `along`, in the face
+        Vec3 over;    ///< inward normal of the wall at the corner
         VertexId corner;
     };
     /// The ends of edges at which rows end. Key: the edge, and whether the rows are at its end (true) or at

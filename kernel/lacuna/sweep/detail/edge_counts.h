@@ -44,6 +44,8 @@ public:
         std::vector<double> places; ///< running lengths from that end
         std::size_t member = 0;
         FaceId face;
+        std::vector<double> heights; ///< of the rows' table
+        int faces = 1; ///< number of members with these rows, of whose positions this is the mean
     };
     /// An edge whose sides follow facets, and the positions of its vertices that become nodes, as shares of
     /// its length.

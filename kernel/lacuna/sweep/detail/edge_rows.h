@@ -14,6 +14,7 @@ namespace lacuna::sweep {
 struct EdgeRows {
     std::vector<double> places; ///< running lengths from that end, increasing [model length]; empty: no rows
     FaceId face;                ///< the face that the rows follow
+    std::vector<double> heights{}; ///< of the rows' table [model length]
 };
 /// For each edge, the rows at its start and at its end.
 using RowsOfEdges = std::map<EdgeId, std::array<EdgeRows, 2>>;

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,8 +25,11 @@ struct SweptParts {
     int layers = 1;
     /// For each edge inside the source, the target edge that it is swept to.
     std::map<EdgeId, EdgeId> target_edges{};
-    /// Whether the nodes of the source, or of the target, are given and must not move.
-    bool source_stays = false, target_stays = false;
+    std::set<FaceId> kept{};   ///< faces of the source with given quads, which must not move
+    bool target_stays = false; ///< whether the nodes of the target are given and must not move
+    /// Whether given nodes come from neighbours with the same rows. The walls of these may lean
+    /// otherwise, so the thickness there is reported but not checked.
+    bool shared_rows = false;
 
     [[nodiscard]] std::size_t size_of(std::size_t link) const { return source.links[link].source_at.size(); }
     /// Source node for node `i` of a linking surface, cyclic.

@@ -41,8 +41,10 @@ struct ReachedThickness {
 };
 
 /// Add a line on the rows of a table to a report.
+/// @param shared  the thickness at nodes that neighbours share, which is reported only
 /// @throw NotSweepable "sweep.layers_thickness"  a row is thicker or thinner than requested.
 void report_thickness(const topology::Model& model, const surface::LayerTables& tables, int table,
-                      const ReachedThickness& reached, std::vector<std::string>& lines);
+                      const ReachedThickness& reached, const ReachedThickness& shared,
+                      std::vector<std::string>& lines);
 
 } // namespace lacuna::sweep
