@@ -196,9 +196,10 @@ double hex_share(const FilledParts& mesh)
 /// The result of an attempt that logs its notes to a context of its own. Empty if it fails; the log says why.
 /// @param what   attempted
 /// @param notes  receives the notes, which are to be logged only if the result is used
+/// @param why    receives the error if there was none before; null: nobody asks
 template <class Attempt>
 auto attempted(std::string_view what, std::vector<std::string>& notes, const RunContext& context,
-               const Attempt& attempt) -> decltype(attempt(context))
+               const Attempt& attempt, std::optional<Message>* why = nullptr) -> decltype(attempt(context))
 {
     RunContext own = context;
     own.log = [&](std::string_view line) { notes.emplace_back(line); };
@@ -208,6 +209,7 @@ auto attempted(std::string_view what, std::vector<std::string>& notes, const Run
         throw;
     } catch (const Error& error) {
         log_line(context, formatted("{}: {}", what, error.message().text()));
+        if (why != nullptr && !*why) *why = error.message();
         return std::nullopt;
     }
 }
@@ -241,10 +243,13 @@ public:
                                                      : "",
                                              why_.text());
         std::vector<std::string> notes;
-        auto mesh = attempted(cut, notes, context_, [&](const RunContext& own) {
-            note_joined(sealed_.volume.model, pieces, own);
-            return std::optional(sweep_pieces_true(sealed_, pieces, options_, sized_, own));
-        });
+        auto mesh = attempted(
+            cut, notes, context_,
+            [&](const RunContext& own) {
+                note_joined(sealed_.volume.model, pieces, own);
+                return std::optional(sweep_pieces_true(sealed_, pieces, options_, sized_, own));
+            },
+            &failure_);
         if (!mesh) return;
         const std::pair worth(hex_share(*mesh), least_of(parts(*mesh)));
         if (!(worth > std::pair(share_, least_))) return;
@@ -263,6 +268,8 @@ public:
     [[nodiscard]] double share() const { return share_; }
     /// Whether the mesh is of hexahedra alone, and none is poor.
     [[nodiscard]] bool is_good() const { return share_ == 1 && least_ >= kPoorCell; }
+    /// The first error of a partition.
+    [[nodiscard]] const std::optional<Message>& failure() const { return failure_; }
     /// The pieces of the best mesh; empty if there is none.
     std::vector<closure::StepPiece> pieces() { return std::move(pieces_); }
 
@@ -279,6 +286,7 @@ private:
     bool sized_; ///< as for sweep_pieces_true()
     const RunContext& context_;
     std::optional<FilledParts> best_;
+    std::optional<Message> failure_;
     std::vector<closure::StepPiece> pieces_;
     double share_ = 0; ///< of the volume of `best_` that is in hexahedra
     double least_ = 0; ///< least scaled Jacobian of `best_`
@@ -412,6 +420,12 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     } else if (mixed) {
         if (!sealed.no_roles) sealed.no_roles = why;
         filled.mesh = fill_alone({&sealed, nullptr, nullptr, options, true, true}, context);
+    } else if (mesher.failure() && !options.boundary_layers.empty()) {
+        throw NotSweepable(Message("sweep.layers_pieces",
+                                   "no single sweep fills the volume, and its pieces cannot be meshed with "
+                                   "the boundary layers asked for")
+                               .remedy("use fewer or thinner rows, or leave out 'boundary_layers'")
+                               .attempt(*mesher.failure()));
     } else {
         return std::nullopt;
     }
