@@ -91,6 +91,28 @@ Delete { Volume{1, 50}; }  Delete { Surface{1, 3, 5, 6}; }]]):format(half[1], ha
   end
 end
 
+-- A boss without its wall, with a bore through boss and plate: the bore is not cut off at the plate. The
+-- plate may lack its bottom as well.
+for member, boss in ipairs { { 8, 15, 4 }, { 12, 6, 9 }, { 6, 30, 2.5 } } do
+  local radius, height, bore = boss[1], boss[2], boss[3]
+  local without = "b() = Surface In BoundingBox{-21,-16,-1e-3, 21,16,1e-3};  Delete { Surface{b()}; }"
+  for _, bottom in ipairs { "", without } do
+    local low, high, top = 10 - 1e-3, 10 + height + 1e-3, 10 + height - 1e-3
+    local model = solids("boss", ([[
+Box(1) = {-20,-15,0, 40,30,10};  Cylinder(2) = {3,0,10, 0,0,%g, %g};  Cylinder(3) = {3,0,-1, 0,0,99, %g};
+BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+BooleanDifference(5) = { Volume{4}; Delete; }{ Volume{3}; Delete; };
+Delete { Volume{5}; }
+w() = Surface In BoundingBox{-10,-13,%g, 16,13,%g};  w() -= Surface In BoundingBox{-10,-13,%g, 16,13,%g};
+Delete { Surface{w()}; }
+%s]]):format(height, radius, bore, low, high, top, high, bottom))
+    local quality = model:open_volume {}:sweep { size = 4 }:quality()
+    local truth = 12000 + math.pi * (radius ^ 2 * height - bore ^ 2 * (10 + height))
+    check.that(math.abs(quality.volume / truth - 1) < 0.02,
+      ("boss %d: %g, not %g"):format(member, quality.volume, truth))
+  end
+end
+
 -- The faces of a shell mesh are oriented anyhow: a pipe still ends in the plane of a pan's rim.
 for flips = 0, 31 do
   local model = lacuna.model()

@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/segment.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -119,6 +121,38 @@ bool has_rim_in(const Model& model, const std::vector<FaceId>& part, const geome
 {
     return std::ranges::any_of(rims(model, part), [&](const Rim& rim) {
         return is_flat_in(model, loop_places(model, rim.uses), plane);
+    });
+}
+
+/// Whether a rim of a part lies in front of the plane of a loop, and over the whole loop, but the part itself
+/// crosses the plane elsewhere: the wall between rim and loop is missing, such as that of a boss with a bore.
+bool has_rim_over(const Model& model, const std::vector<FaceId>& part, const geometry::Plane& plane,
+                  const std::vector<Vec3>& loop)
+{
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : loop) box.extend(p);
+    const double near = kAlikeSizes * box.diagonal().norm();
+    const auto lies_over = [&](const std::vector<Vec3>& rim, const std::vector<Vec3>& other) {
+        return std::ranges::all_of(rim, [&](const Vec3& p) {
+            return std::ranges::any_of(std::views::iota(std::size_t{0}, other.size()), [&](std::size_t i) {
+                return geometry::distance_to_segment(p, other[i], other[(i + 1) % other.size()]) <= near;
+            });
+        });
+    };
+    const auto fills_loop = [&](const SectionWalk& walk) {
+        std::vector<Vec3> places;
+        for (const SectionPlace& place : walk.places) places.push_back(place_at(model, place, plane));
+        return lies_over(places, loop);
+    };
+    if (std::ranges::any_of(section_walks(model, part, plane, model.tolerance), fills_loop)) return false;
+    return std::ranges::any_of(rims(model, part), [&](const Rim& rim) {
+        std::vector<Vec3> foot;
+        for (const Vec3& p : loop_places(model, rim.uses)) {
+            const double height = geometry::height(plane, p);
+            if (!(height > model.tolerance)) return false;
+            foot.push_back(p - height * plane.normal);
+        }
+        return lies_over(foot, loop) && lies_over(loop, foot);
     });
 }
 
@@ -296,7 +330,7 @@ std::optional<Overhang> find_overhang(const Model& whole, const std::vector<Face
                 const std::vector<FaceId>& part = parts[at.part];
                 if (!at.crosses)
                     out.insert(out.end(), at.flush.begin(), at.flush.end());
-                else if (has_rim_in(model, part, *plane))
+                else if (has_rim_in(model, part, *plane) || has_rim_over(model, part, *plane, loop))
                     return false;
                 else if (!crosses_quads(model, part, *plane) && crosses_inside(model, part, *plane, loop))
                     out.insert(out.end(), part.begin(), part.end());
