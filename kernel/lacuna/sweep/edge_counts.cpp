@@ -133,7 +133,7 @@ EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
     find_across();
     find_rows();
     count();
-    make_even();
+    settle();
 }
 
 void EdgeCounts::join(std::size_t a, std::size_t b, bool reversed)
@@ -212,6 +212,15 @@ void EdgeCounts::join_by_sweep(std::size_t m)
     for (const auto& [from, to] : target_of) {
         if (to.size() == 1 && source_of.at(*to.begin()).size() == 1)
             join(edges_.number(m, from), edges_.number(m, *to.begin()), reversed.at(from));
+    }
+    for (const auto& [own, other] : {std::tie(target_of, source_of), std::tie(source_of, target_of)}) {
+        for (const auto& [whole, parts] : own) {
+            if (parts.size() < 2 ||
+                std::ranges::any_of(parts, [&](EdgeId part) { return other.at(part).size() > 1; }))
+                continue;
+            Chain& chain = chains_.emplace_back(Chain{edges_.number(m, whole), {}});
+            for (const EdgeId part : parts) chain.parts.push_back(edges_.number(m, part));
+        }
     }
 }
 
@@ -503,18 +512,50 @@ void EdgeCounts::count()
     check_rows();
 }
 
-void EdgeCounts::make_even()
+void EdgeCounts::settle()
+{
+    const auto before = count_;
+    if (settle(true) || chains_.empty()) return;
+    count_ = before;
+    bumps_.clear();
+    settle(false);
+}
+
+bool EdgeCounts::settle(bool chains)
 {
     for (int round = 0; round < kMostRounds; ++round) {
-        bool odd = false;
+        bool changed = chains && match_chains();
         for (std::size_t m = 0; m < edges_.members().size(); ++m) {
             for (std::size_t f = 0; f < edges_.model(m).faces.size(); ++f) {
                 if (edges_.members()[m].volume->role[f] != Role::wall)
-                    odd = make_even(m, FaceId(f), round) || odd;
+                    changed = make_even(m, FaceId(f), round) || changed;
             }
         }
-        if (!odd) return;
+        if (!changed) return true;
     }
+    return false;
+}
+
+bool EdgeCounts::match_chains()
+{
+    const auto is_free = [&](std::size_t e) {
+        return planned_[e] && !asked_.contains(class_of(e)) &&
+               kept_of_class_.at(class_of(e)) == SameEdges::Kept::no;
+    };
+    bool changed = false;
+    for (const Chain& chain : chains_) {
+        if (!planned_[chain.whole] ||
+            !std::ranges::all_of(chain.parts, [&](std::size_t e) -> bool { return planned_[e]; }))
+            continue;
+        int missing = -sides_of(chain.whole);
+        for (const std::size_t part : chain.parts) missing += sides_of(part);
+        const auto side = [&](std::size_t e) { return is_free(e) ? edges_[e].length / sides_of(e) : 0.0; };
+        const std::size_t e = missing > 0 ? chain.whole : *std::ranges::max_element(chain.parts, {}, side);
+        if (missing == 0 || !is_free(e)) continue;
+        count_.at(class_of(e)) += std::abs(missing);
+        changed = true;
+    }
+    return changed;
 }
 
 bool EdgeCounts::make_even(std::size_t m, FaceId face, int round)

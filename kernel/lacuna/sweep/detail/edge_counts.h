@@ -119,6 +119,11 @@ private:
         bool reversed = false;
     };
     void join(std::size_t a, std::size_t b, bool reversed);
+    /// An edge of one rim of a member and the edges of the other rim that correspond to it.
+    struct Chain {
+        std::size_t whole = 0;
+        std::vector<std::size_t> parts;
+    };
     /// Find the direction of each edge relative to the other edges of its class.
     void find_directions();
     /// Find the densities of sides along classes with an edge on the rim of a source beside a narrow place.
@@ -164,9 +169,16 @@ private:
     [[nodiscard]] double wanted(const MemberEdge& edge) const;
     /// Determine the number of sides of each class.
     void count();
+    /// Settle the numbers of sides of planned edges (`match_chains()`, `make_even()`). Chains are left to the
+    /// members' sweeps if their numbers do not settle.
+    void settle();
+    /// @return  whether all numbers fit.
+    bool settle(bool chains);
+    /// Give an edge that corresponds to a chain of several edges on its member's other rim as many sides as
+    /// the chain. @return  whether a class has got more sides.
+    bool match_chains();
     /// If all edges of an end are shared or have given nodes, make the number of its sides even, because
     /// quads need an even number.
-    void make_even();
     /// @return  whether a class has got one more side.
     bool make_even(std::size_t m, FaceId face, int round);
     void find_frame();
@@ -190,6 +202,7 @@ private:
     std::map<std::size_t, SidesOfClass> intervals_; ///< for each class: sides requested by 'intervals'
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
     std::vector<JoinedEdges> joined_;
+    std::vector<Chain> chains_;
     std::vector<bool> reversed_; ///< for each edge, whether it runs against its class
     /// For each class beside narrow places: at even steps along it, the number of sides that the size there
     /// would give its whole length.
