@@ -29,6 +29,28 @@ local bodies = {
         high, random(0.9, 1.1), high, r) .. "BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }",
         4 * high - 2 / 3 * math.pi * r ^ 3
   end,
+  -- Four faces of two sides meet at both poles.
+  crossing = function(random)
+    local r = random(0.5, 2)
+    return ("Cylinder(1) = {-9,0,0, 18,0,0, %.15g}; Cylinder(2) = {0,-9,0, 0,18,0, %.15g};\n"):format(r, r) ..
+        "BooleanIntersection{ Volume{1}; Delete; }{ Volume{2}; Delete; }", 16 / 3 * r ^ 3
+  end,
+  -- Three edges at a corner are rounded. Rims of the parts beside that corner correspond to several edges.
+  corner = function(random)
+    local r, size = random(0.3, 0.7), { random(1.5, 3), random(1.5, 3), random(1.5, 3) }
+    local lost = r ^ 2 * (1 - math.pi / 4) * (size[1] + size[2] + size[3] - 3 * r) + r ^ 3 * (1 - math.pi / 6)
+    return ("Box(1) = {0,0,0, %.15g,%.15g,%.15g}; e() = Curve In BoundingBox{%.15g,%.15g,%.15g, 9,9,9};\n")
+        :format(size[1], size[2], size[3], -1, -1, size[3] - 1e-3) .. ([[
+e() += Curve In BoundingBox{%.15g,%.15g,-1, 9,9,9};  f() = {};
+For i In {0 : #e[]-1}
+  b[] = BoundingBox Curve{e[i]};
+  If ((b[0] > %.15g) + (b[1] > %.15g) + (b[2] > %.15g) == 2)
+    f() += {e[i]};
+  EndIf
+EndFor
+v() = Fillet{1}{f()}{%.15g};]]):format(size[1] - 1e-3, size[2] - 1e-3, size[1] - 1e-3, size[2] - 1e-3,
+        size[3] - 1e-3, r), size[1] * size[2] * size[3] - lost
+  end,
 }
 
 local names = {}

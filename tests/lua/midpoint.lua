@@ -248,6 +248,24 @@ for sides = 4, whole and 6 or 4 do
   end
 end
 
+-- Houses: a prism with a pyramid as its roof. Vertices with four edges and more are cut through until all
+-- have three.
+for sides = 4, whole and 6 or 5 do
+  for _, skew in ipairs { 0, 0.3 } do
+    local faces = pyramid(sides, 1)
+    for k = 1, sides do
+      local base = faces[sides + 1]
+      local a, b = base[k], base[k % sides + 1]
+      faces[k][3] = { skew, 0, 1 }
+      faces[sides + 1 + k] = { a, b, { b[1], b[2], -1.2 }, { a[1], a[2], -1.2 } }
+    end
+    for k, p in ipairs(faces[sides + 1]) do faces[sides + 1][k] = { p[1], p[2], -1.2 } end
+    local mesh = solid(faces):open_volume {}:sweep { size = 0.4 }
+    check_mesh(mesh, sides / 2 * math.sin(2 * math.pi / sides) * (1 / 3 + 1.2))
+    print(("house of %d sides: %s"):format(sides, tostring(mesh.report):match "cut into %d+ pieces"))
+  end
+end
+
 -- --- refused -----------------------------------------------------------------------------------------------
 
 -- More than 64 pieces.

@@ -12,6 +12,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/spread.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -121,6 +122,112 @@ std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_
         if (!parts || parts->size() < 2) continue;
         std::vector<StepPiece> made = finished(std::move(*parts), most, can_sweep, context);
         if (!made.empty()) return made;
+    }
+    return {};
+}
+
+namespace {
+
+/// The direction in which an edge leaves one of its ends.
+Vec3 way_from(const Model& model, EdgeId id, VertexId vertex)
+{
+    const std::vector<Index>& points = model[id].points;
+    const bool ahead = model[id].from == vertex;
+    const Index next = ahead ? points[1] : points[points.size() - 2];
+    return (model.at(next) - model.at(model[vertex].point)).normalized();
+}
+
+/// Planes that cut a volume towards parts whose vertices have three edges, the first of these that exist:
+/// - planes that hold two edges which meet at a vertex with more than three edges and bound no common face;
+///   planes that hold more edges come first;
+/// - planes across two edges of a face that continue each other at a vertex, through a third edge there;
+/// - planes across faces with two sides, midway between the vertices of these sides.
+std::vector<geometry::Plane> planes_at_vertices(const Model& model)
+{
+    std::vector<std::vector<EdgeId>> at(model.vertices.size());
+    for (std::size_t e = 0; e < model.edges.size(); ++e)
+        for (const VertexId vertex : {model.edges[e].from, model.edges[e].to})
+            if (model.edges[e].from != model.edges[e].to) at[vertex.index()].emplace_back(e);
+    const auto holds = [&](const geometry::Plane& plane, const Edge& edge) {
+        return std::ranges::all_of(edge.points, [&](Index p) {
+            return std::abs(geometry::height(plane, model.at(p))) <= model.tolerance;
+        });
+    };
+    const auto share_face = [&](EdgeId a, EdgeId b) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(a);
+        return std::ranges::any_of(model.uses_of_edge(b), [&](const FaceUse& use) {
+            return std::ranges::find(uses, use.face, &FaceUse::face) != uses.end();
+        });
+    };
+    std::vector<std::pair<std::ptrdiff_t, geometry::Plane>> found;
+    for (const std::vector<EdgeId>& edges : at)
+        for (std::size_t a = 0; edges.size() > 3 && a < edges.size(); ++a)
+            for (std::size_t b = 0; b < a; ++b) {
+                if (share_face(edges[a], edges[b])) continue;
+                std::vector<Vec3> places = places_at(model, model[edges[a]].points);
+                std::ranges::copy(places_at(model, model[edges[b]].points), std::back_inserter(places));
+                const geometry::Spread spread = geometry::spread_of(places);
+                const geometry::Plane plane = geometry::plane_across(spread.centre, spread.axis.col(0));
+                if (!holds(plane, model[edges[a]]) || !holds(plane, model[edges[b]])) continue;
+                found.emplace_back(
+                    std::ranges::count_if(model.edges, [&](const Edge& edge) { return holds(plane, edge); }),
+                    plane);
+            }
+    std::ranges::stable_sort(found, std::greater{}, &std::pair<std::ptrdiff_t, geometry::Plane>::first);
+    std::vector<geometry::Plane> planes;
+    for (const auto& [count, plane] : found) planes.push_back(plane);
+    for (std::size_t v = 0; found.empty() && v < at.size(); ++v)
+        for (const EdgeId third : at[v])
+            for (const EdgeId a : at[v])
+                for (const EdgeId b : at[v]) {
+                    if (!(a < b) || a == third || b == third || !share_face(a, b)) continue;
+                    const Vec3 way = way_from(model, a, VertexId(v)), back = way_from(model, b, VertexId(v));
+                    if (way.dot(back) > -kOneCurve) continue;
+                    // The plane of the third edge or, if this edge is straight, the plane across the others.
+                    const geometry::Spread spread = geometry::spread_of(
+                        places_at(model, model[third].points));
+                    const Vec3 along = spread.axis.col(2), across = way - back;
+                    const bool bent = spread.square(1) > kVisible * kVisible * spread.square(2);
+                    planes.push_back(geometry::plane_across(
+                        spread.centre, bent ? Vec3(spread.axis.col(0))
+                                            : Vec3((across - across.dot(along) * along).normalized())));
+                }
+    for (const Face& face : model.faces) {
+        std::vector<Vec3> corners;
+        for (const EdgeUse& use : uses_of(face))
+            if (const VertexId vertex = use_from(model, use); at[vertex.index()].size() > 2)
+                corners.push_back(model.at(model[vertex].point));
+        if (!found.empty() || face.loops.size() != 1 || corners.size() != 2) continue;
+        planes.push_back(
+            geometry::plane_across((corners[0] + corners[1]) / 2, (corners[1] - corners[0]).normalized()));
+    }
+    return planes;
+}
+
+} // namespace
+
+std::vector<StepPiece> divided_at_vertices(const OpenVolume& volume, std::size_t most,
+                                           const CanSweep& can_sweep, const RunContext& context)
+{
+    for (const geometry::Plane& plane : planes_at_vertices(volume.model)) {
+        check_cancelled(context);
+        auto parts = unless_refused([&] { return cut_at_edges(volume, plane, {}, 0, context); });
+        if (!parts || parts->size() < 2) continue;
+        std::vector<StepPiece> made;
+        for (std::size_t left = parts->size(); StepPiece & part : *parts) {
+            --left;
+            if (made.size() + left >= most) return {};
+            const std::size_t here = most - made.size() - left;
+            std::vector<StepPiece> own{std::move(part)};
+            if (!find_ends(own.front(), can_sweep, context)) {
+                const OpenVolume whole = std::move(own.front().volume);
+                own = divided_at_vertices(whole, here, can_sweep, context);
+                if (own.empty()) own = divided_at_middle(whole, here, can_sweep, context);
+            }
+            if (own.empty()) return {};
+            std::ranges::move(own, std::back_inserter(made));
+        }
+        return made;
     }
     return {};
 }

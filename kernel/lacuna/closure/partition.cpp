@@ -87,7 +87,8 @@ bool has_stepped_end(const OpenVolume& volume, const RunContext& context)
 }
 
 /// Divide a part without ends at its middle or, if no length is left to cut, at an edge between coplanar
-/// faces, where smooth parts of its skin turn over, or at the centre of a sphere or apex of a cone.
+/// faces, where smooth parts of its skin turn over, at the centre of a sphere or apex of a cone, or at
+/// vertices.
 /// @return  the number of additional pieces
 std::size_t divide(CutPart& part, std::size_t most, const CanSweep& can_sweep, const RunContext& context)
 {
@@ -99,6 +100,8 @@ std::size_t divide(CutPart& part, std::size_t most, const CanSweep& can_sweep, c
         part.blocks = divided_where_turning(part.piece.volume, most, can_sweep, context);
     if (part.blocks.empty() && !(part.left > 0))
         part.blocks = divided_at_centre(part.piece.volume, most, can_sweep, context);
+    if (part.blocks.empty() && !(part.left > 0))
+        part.blocks = divided_at_vertices(part.piece.volume, most, can_sweep, context);
     return part.blocks.empty() ? 0 : part.blocks.size() - 1;
 }
 
@@ -423,7 +426,8 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
         take_some(divided_through_axis(volume, can_sweep, context)) ||
         take_some(divided_at_middle(volume, kMostPieces, can_sweep, context)) ||
         take_some(divided_where_turning(volume, kMostPieces, can_sweep, context)) ||
-        (is_whole && take_some(divided_at_centre(volume, kMostPieces, can_sweep, context))))
+        (is_whole && take_some(divided_at_centre(volume, kMostPieces, can_sweep, context))) ||
+        (is_whole && take_some(divided_at_vertices(volume, kMostPieces, can_sweep, context))))
         return;
     // The whole volume may have ends that were not tried yet, such as a top with its chamfers.
     if (!is_swept && first.size() == 1)

@@ -24,6 +24,13 @@ std::vector<StepPiece> divided_at_middle(const topology::OpenVolume& volume, std
 std::vector<StepPiece> divided_at_flat_edge(const topology::OpenVolume& volume, std::size_t most,
                                             const CanSweep& can_sweep, const RunContext& context);
 
+/// Cut a volume by a plane through two edges at a vertex with more than three edges, such as the apex of a
+/// pyramid. Without such vertices, cut it by a plane across two edges of a face that continue each other at a
+/// vertex, or across a face with two sides. Parts without ends are cut again, or divided at their middles.
+/// Empty if no plane cuts the volume, or the first that does leaves a part that cannot be divided.
+std::vector<StepPiece> divided_at_vertices(const topology::OpenVolume& volume, std::size_t most,
+                                           const CanSweep& can_sweep, const RunContext& context);
+
 /// Normals of the flat faces of a volume, those with the largest area first. Parallel normals are listed
 /// once.
 /// @param both  whether flat faces must face in both directions along a normal.

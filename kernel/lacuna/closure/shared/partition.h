@@ -34,7 +34,8 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - at its middle (`midpoint_blocks()`);
 /// - across an edge between coplanar faces;
 /// - across an axis where smooth parts of the skin turn over, such as a ring in a cup;
-/// - at a centre: by three perpendicular planes through the centre of a sphere or the apex of a cone.
+/// - at a centre: by three perpendicular planes through the centre of a sphere or the apex of a cone;
+/// - at vertices: by planes through edges of vertices with more than three edges.
 ///
 /// A cut is undone if none of the resulting pieces has ends or is divided.
 ///
@@ -46,7 +47,7 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - a body of revolution with a bore around its axis, cut into two halves that are swept around the axis;
 /// - the volume divided at its middle (`midpoint_blocks()`);
 /// - divided across an axis where smooth parts of the skin turn over;
-/// - divided at a centre, if no cut was made and no length is left to cut;
+/// - divided at a centre or at vertices, if no cut was made and no length is left to cut;
 /// - the pieces of the best cuts, if some have no ends. Pieces that still have a length to cut are divided at
 ///   their middles where that is possible. If no cut helps, the only piece is the volume itself, with other
 ///   ends if there are any;
