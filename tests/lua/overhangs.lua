@@ -113,6 +113,23 @@ Delete { Surface{w()}; }
   end
 end
 
+-- A round pocket without its wall, with a pin that is higher than the plate: the pin is not cut off.
+for member, pocket in ipairs { { 12, 4, 5, 3 }, { 10, 6, 3, 8 }, { 13, 2, 9, 1.5 } } do
+  local radius, depth, pin, above = table.unpack(pocket)
+  local model = solids("pocket", ([[
+Box(1) = {-20,-15,0, 40,30,10};  Cylinder(2) = {3,0,%g, 0,0,9, %g};  Cylinder(3) = {3,0,%g, 0,0,%g, %g};
+BooleanDifference(4) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+BooleanUnion(5) = { Volume{4}; Delete; }{ Volume{3}; Delete; };
+Delete { Volume{5}; }
+w() = Surface In BoundingBox{-12,-14,%g, 18,14,10.1};  w() -= Surface In BoundingBox{-12,-14,%g, 18,14,%g};
+Delete { Surface{w()}; }]]):format(10 - depth, radius, 10 - depth, depth + above, pin, 9.9 - depth,
+    9.9 - depth, 10.1 - depth))
+  local quality = model:open_volume {}:sweep { size = 4 }:quality()
+  local truth = 12000 + math.pi * (pin ^ 2 * (depth + above) - radius ^ 2 * depth)
+  check.that(math.abs(quality.volume / truth - 1) < 0.02,
+    ("pocket %d: %g, not %g"):format(member, quality.volume, truth))
+end
+
 -- The faces of a shell mesh are oriented anyhow: a pipe still ends in the plane of a pan's rim.
 for flips = 0, 31 do
   local model = lacuna.model()

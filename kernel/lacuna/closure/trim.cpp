@@ -124,36 +124,42 @@ bool has_rim_in(const Model& model, const std::vector<FaceId>& part, const geome
     });
 }
 
-/// Whether a rim of a part lies in front of the plane of a loop, and over the whole loop, but the part itself
-/// crosses the plane elsewhere: the wall between rim and loop is missing, such as that of a boss with a bore.
-bool has_rim_over(const Model& model, const std::vector<FaceId>& part, const geometry::Plane& plane,
-                  const std::vector<Vec3>& loop)
+/// Whether two closed lines are one, within the sag of their chords.
+bool are_one_line(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 {
     Eigen::AlignedBox3d box;
-    for (const Vec3& p : loop) box.extend(p);
+    for (const Vec3& p : b) box.extend(p);
     const double near = kAlikeSizes * box.diagonal().norm();
-    const auto lies_over = [&](const std::vector<Vec3>& rim, const std::vector<Vec3>& other) {
-        return std::ranges::all_of(rim, [&](const Vec3& p) {
+    const auto lies_on = [&](const std::vector<Vec3>& line, const std::vector<Vec3>& other) {
+        return std::ranges::all_of(line, [&](const Vec3& p) {
             return std::ranges::any_of(std::views::iota(std::size_t{0}, other.size()), [&](std::size_t i) {
                 return geometry::distance_to_segment(p, other[i], other[(i + 1) % other.size()]) <= near;
             });
         });
     };
+    return lies_on(a, b) && lies_on(b, a);
+}
+
+/// Whether a rim of a part lies in front of or behind a loop in a plane, but the part itself crosses the
+/// plane elsewhere: the wall between rim and loop is missing, such as that of a boss with a bore. Not if
+/// another rim of the part around the loop lies there as well: the wall may lead to that rim.
+bool has_rim_over(const Model& model, const std::vector<FaceId>& part, const std::vector<FaceId>& around,
+                  const geometry::Plane& plane, const std::vector<Vec3>& loop)
+{
+    const auto lies_over = [&](const Rim& rim) {
+        std::vector<Vec3> foot = loop_places(model, rim.uses);
+        if (std::abs(geometry::height(plane, foot.front())) <= model.tolerance) return false;
+        for (Vec3& p : foot) p -= geometry::height(plane, p) * plane.normal;
+        return are_one_line(foot, loop);
+    };
     const auto fills_loop = [&](const SectionWalk& walk) {
         std::vector<Vec3> places;
         for (const SectionPlace& place : walk.places) places.push_back(place_at(model, place, plane));
-        return lies_over(places, loop);
+        return are_one_line(places, loop);
     };
-    if (std::ranges::any_of(section_walks(model, part, plane, model.tolerance), fills_loop)) return false;
-    return std::ranges::any_of(rims(model, part), [&](const Rim& rim) {
-        std::vector<Vec3> foot;
-        for (const Vec3& p : loop_places(model, rim.uses)) {
-            const double height = geometry::height(plane, p);
-            if (!(height > model.tolerance)) return false;
-            foot.push_back(p - height * plane.normal);
-        }
-        return lies_over(foot, loop) && lies_over(loop, foot);
-    });
+    return std::ranges::any_of(rims(model, part), lies_over) &&
+           std::ranges::none_of(rims(model, around), lies_over) &&
+           std::ranges::none_of(section_walks(model, part, plane, model.tolerance), fills_loop);
 }
 
 /// Whether another rim of some faces lies in the plane of a loop and encloses it.
@@ -330,7 +336,8 @@ std::optional<Overhang> find_overhang(const Model& whole, const std::vector<Face
                 const std::vector<FaceId>& part = parts[at.part];
                 if (!at.crosses)
                     out.insert(out.end(), at.flush.begin(), at.flush.end());
-                else if (has_rim_in(model, part, *plane) || has_rim_over(model, part, *plane, loop))
+                else if (has_rim_in(model, part, *plane) ||
+                         has_rim_over(model, part, parts[around], *plane, loop))
                     return false;
                 else if (!crosses_quads(model, part, *plane) && crosses_inside(model, part, *plane, loop))
                     out.insert(out.end(), part.begin(), part.end());
