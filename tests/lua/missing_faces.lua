@@ -252,6 +252,38 @@ for what, case in pairs {
   check.that(code ~= 0 or err:find("note: ", 1, true), what .. ": " .. err)
 end
 
+-- A missing cone is found between two rims of different radii: where no straight wall can end, or of 45°. A
+-- slot may notch one of the rims.
+do
+  local r, c, h = random(0.4, 0.6), random(0.2, 0.5), random(1, 1.5)
+  local union = "BooleanUnion(9)={Volume{1};Delete;}{Volume{2};Delete;};"
+  for what, script in pairs {
+    ["pulley"] = ("Cone(1)={0,0,0,0,0,%g,2.5,2}; Cone(2)={0,0,%g,0,0,%g,2,2.5};"):format(h, h, h) .. union
+        .. ("Cylinder(3)={0,0,-1,0,0,9,%g};"):format(r)
+        .. "BooleanDifference{Volume{9};Delete;}{Volume{3};Delete;}",
+    ["chamfered shaft"] = ("Cylinder(1)={0,0,0,0,0,%g,1.2}; Cone(2)={0,0,%g,0,0,%g,1.2,%g};"):format(
+      h, h, c, 1.2 - c) .. union,
+    ["countersunk plate"] = ("Cylinder(1)={0,0,-1,0,0,9,%g}; Cone(2)={0,0,2,0,0,%g,%g,%g};"):format(
+      r, 2 * c, r, r + 2 * c) .. union .. ("Box(3)={-3,-3,0,6,6,%g};"):format(2 + 2 * c)
+        .. "BooleanDifference{Volume{3};Delete;}{Volume{9};Delete;}",
+    ["bell"] = ("Cone(1)={0,0,0,0,0,%g,1.3,2.2}; Cylinder(2)={0,0,%g,0,0,0.3,2.8};"):format(h, h) .. union
+        .. ("Cone(3)={0,0,0,0,0,%g,1,%g}; BooleanDifference{Volume{9};Delete;}{Volume{3};Delete;}"):format(
+          h + 0.3, 1.6 + r / 2),
+    ["slotted taper"] = ("Cone(1)={0,0,0,0,0,%g,1.5,1}; Box(2)={%g,-0.2,%g,5,0.4,9};"):format(3 * h, r, 2 * h)
+        .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}",
+  } do
+    local model = load(script)
+    local _, volume = sealed_without(model, {})
+    local cones = model:faces { kind = "cone" }
+    check.that(#cones > 0, what .. ": no cones")
+    for _, cone in ipairs(cones) do
+      local void, sealed = sealed_without(model, { [cone.tag] = true })
+      check.near(sealed, volume, 0.01 * volume)
+      check.that(has_note(void), what .. ": no note")
+    end
+  end
+end
+
 -- A member of an assembly is closed once, and so is a volume that no sweep fills: what closing assumes is
 -- noted once.
 do

@@ -174,9 +174,10 @@ bool closes_hole(const Model& model, const Closure& closure)
 }
 
 /// Replace the readings by that of `read_filled()` if this one is sure. It is only made if the readings
-/// differ, if the first one assumes the shape of a face, or if it closes a hole in its plane although the
-/// faces are of several parts, between which a round wall may be missing.
-/// - If the readings differ in volume, or in whether holes go through, it must close no hole.
+/// differ, if the first one assumes the shape of a face, or if it closes a hole in its plane: a round wall
+/// may be missing there.
+/// - If the readings differ in volume, or in whether holes go through, it must close no hole; also if the
+///   faces are connected and nothing else is in doubt.
 /// - If the readings differ in volume, or the user is asked about holes (`leave_holes_open()`), it may assume
 ///   nothing but round walls between rims; otherwise also that missing faces are flat and missing walls
 ///   straight.
@@ -190,11 +191,12 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, std::vect
                                    std::ranges::any_of(sealed->closure.void_faces, [&](FaceId face) {
                                        return is_bent_ring(sealed->volume.model, face);
                                    }));
-    const bool closes = sealed && connected_parts(model, faces).size() > 1 &&
-                        closes_hole(sealed->volume.model, sealed->closure);
+    const bool closes = sealed && closes_hole(sealed->volume.model, sealed->closure);
     if (!differ && !untold && !closes && !reading.guess) return;
     auto told = read_filled(model, faces, context);
-    if (!told || told->guess || (differ && closes_hole(told->volume.model, *told->closure))) return;
+    if (!told || told->guess) return;
+    const bool alone = closes && !untold && !reading.guess && connected_parts(model, faces).size() == 1;
+    if ((differ || alone) && closes_hole(told->volume.model, *told->closure)) return;
     const bool asks = readings.size() > 1 || leave_holes_open(model, readings, faces, context);
     const bool is_sure = asks ? assumes_only(*told->closure, {Assumed::round_wall, Assumed::rim})
                               : assumes_only(*told->closure,

@@ -45,6 +45,7 @@ struct RoundRim {
     std::size_t loop = 0;
     geometry::Plane base; ///< plane normal to the axis, through the centre of the rim
     double radius = 0;
+    double slope = 0;        ///< of the wall at the rim: increase of its radius with the height above `base`
     bool flat = false;       ///< whether the rim is planar
     bool needs_wall = false; ///< whether no face inside the rim can close it
     std::set<FaceId> beside; ///< the given faces at the rim
@@ -90,11 +91,21 @@ bool is_round(const geometry::Plane& base, double radius, const std::vector<Vec3
     });
 }
 
+double wall_radius(const RoundRim& rim, double height) { return rim.radius + rim.slope * height; }
+
+/// Whether all places are on the round wall through a rim.
+bool is_on_wall(const RoundRim& rim, const std::vector<Vec3>& places)
+{
+    return std::ranges::all_of(places, [&](const Vec3& p) {
+        const double radius = wall_radius(rim, geometry::height(rim.base, p));
+        return std::abs(distance_to_axis(rim.base, p) - radius) <= kAlikeSizes * rim.radius;
+    });
+}
+
 /// Whether a given face at a rim is a part of the round wall through the rim.
 bool is_of_wall(const Model& model, const RoundRim& rim, FaceId face)
 {
-    return !plane_of(model, face) &&
-           is_round(rim.base, rim.radius, places_at(model, corner_points(model[face])));
+    return !plane_of(model, face) && is_on_wall(rim, places_at(model, corner_points(model[face])));
 }
 
 /// The circle that some places in one plane lie on.
@@ -218,7 +229,7 @@ bool is_hole_between(const Model& model, const Rim& loop, const RoundRim& axis,
     const std::vector<Vec3> places = loop_places(model, loop.uses);
     const auto height = [&](const Vec3& p) { return geometry::height(axis.base, p); };
     const auto [low, high] = std::ranges::minmax(rim_places, {}, height);
-    return is_round(axis.base, axis.radius, places) && std::abs(turn_round(axis.base, places)) <= kParallel &&
+    return is_on_wall(axis, places) && std::abs(turn_round(axis.base, places)) <= kParallel &&
            std::ranges::all_of(
                places, [&](const Vec3& p) { return height(p) > height(low) && height(p) < height(high); });
 }
@@ -381,7 +392,8 @@ std::optional<VoidFilling> fill_round_wall(const Model& model, const RoundRim& f
     const geometry::Triangulation net = triangulate_unrolled(outline, wall->step, context);
     const auto lift = [&](const Vec2& p) -> Vec3 {
         const double at = p.x() / from.radius;
-        return geometry::from_plane(from.base, from.radius * Vec2(std::cos(at), std::sin(at)), p.y());
+        return geometry::from_plane(from.base, wall_radius(from, p.y()) * Vec2(std::cos(at), std::sin(at)),
+                                    p.y());
     };
     // The points of the cut follow those inside. Each is listed twice in the outline.
     for (std::size_t k = 0; k < wall->cut.size(); ++k)
@@ -411,6 +423,18 @@ bool add_tube(FlatFilling& filling, const RoundRim& from, const std::vector<Edge
     return true;
 }
 
+/// Whether the given faces at a rim run along an axis.
+bool runs_along(const Model& model, const Rim& rim, const Vec3& axis)
+{
+    return std::ranges::all_of(rim.uses, [&](const EdgeUse& use) {
+        return std::ranges::all_of(model.uses_of_edge(use.edge), [&](const FaceUse& by) {
+            return model[by.face].origin != Origin::given ||
+                   std::ranges::all_of(facet_normals(model, by.face).normals,
+                                       [&](const Vec3& n) { return std::abs(n.dot(axis)) <= kParallel; });
+        });
+    });
+}
+
 /// The nearest flat rim across the axis of a round rim, on one side of it, whose given faces run along the
 /// axis, and which lies inside or around the image of the round rim in its plane. Empty if there is none.
 std::optional<geometry::Plane> plane_beyond(const Model& model, const std::vector<Rim>& loops,
@@ -431,18 +455,82 @@ std::optional<geometry::Plane> plane_beyond(const Model& model, const std::vecto
         if (plane.normal.cross(rim.base.normal).norm() > kParallel || apart <= model.tolerance ||
             apart >= distance || (inside > 0 && inside < std::ssize(places)))
             continue;
-        const bool along = std::ranges::all_of(loops[l].uses, [&](const EdgeUse& use) {
-            return std::ranges::all_of(model.uses_of_edge(use.edge), [&](const FaceUse& by) {
-                return std::ranges::all_of(facet_normals(model, by.face).normals, [&](const Vec3& n) {
-                    return std::abs(n.dot(rim.base.normal)) <= kParallel;
-                });
-            });
-        });
-        if (!along) continue;
+        if (!runs_along(model, loops[l], rim.base.normal)) continue;
         nearest = plane;
         distance = apart;
     }
     return nearest;
+}
+
+/// A conical wall between two rims on one axis.
+struct ConeWall {
+    RoundRim from;
+    std::size_t to = 0; ///< the other loop
+    double height = 0;  ///< mean height of the other loop above the rim
+};
+
+/// The conical wall through a circle and a loop round its axis, at which no given face continues this wall;
+/// empty if there is none.
+std::optional<ConeWall> cone_to(const Model& model, RoundRim circle, const Rim& loop, std::size_t to)
+{
+    const std::vector<Vec3> places = loop_places(model, loop.uses);
+    double product = 0, square = 0, sum = 0;
+    for (const Vec3& p : places) {
+        const double height = geometry::height(circle.base, p);
+        product += height * (distance_to_axis(circle.base, p) - circle.radius);
+        square += height * height;
+        sum += height;
+    }
+    circle.slope = product / square;
+    const auto count = static_cast<double>(places.size());
+    const double rise = std::sqrt(square / count);
+    if (!(rise > model.tolerance) || std::abs(circle.slope) * rise <= kAlikeSizes * circle.radius ||
+        !is_on_wall(circle, places) ||
+        std::abs(std::abs(turn_round(circle.base, places)) - 2 * std::numbers::pi) > kParallel)
+        return std::nullopt;
+    const auto continues = [&](FaceId face) { return is_of_wall(model, circle, face); };
+    if (std::ranges::any_of(circle.beside, continues) ||
+        std::ranges::any_of(loop.uses, [&](const EdgeUse& use) {
+            return continues(model.uses_of_edge(use.edge).front().face);
+        }))
+        return std::nullopt;
+    return ConeWall{std::move(circle), to, sum / count};
+}
+
+/// Conical walls between free loops that are not joined yet, the shortest first. One of the rims needs a
+/// wall, or these are the only two loops, of unconnected parts. A straight wall up to the plane of the next
+/// flat rim is likelier, unless the cone is one of 45°, such as a chamfer.
+std::vector<ConeWall> cones_between(const Model& model, const std::vector<Rim>& loops,
+                                    const std::vector<RoundRim>& round, const std::set<std::size_t>& joined,
+                                    const std::vector<std::size_t>& part)
+{
+    const auto part_of = [&](std::size_t l) {
+        return part[model.uses_of_edge(loops[l].uses.front().edge).front().face.index()];
+    };
+    std::vector<ConeWall> cones;
+    for (const RoundRim& circle : round) {
+        if (!circle.flat || joined.contains(circle.loop)) continue;
+        for (std::size_t l = 0; l < loops.size(); ++l) {
+            const auto other = std::ranges::find(round, l, &RoundRim::loop);
+            const bool is_circle = other != round.end() && other->flat;
+            if (joined.contains(l) || l == circle.loop || (is_circle && l < circle.loop)) continue;
+            auto cone = cone_to(model, circle, loops[l], l);
+            if (!cone) continue;
+            const bool alone = loops.size() == joined.size() + 2 && part_of(l) != part_of(circle.loop);
+            const bool needs = !is_circle || other->needs_wall;
+            const auto is_stepped = [&](const RoundRim& rim) {
+                const auto plane = rim.needs_wall ? plane_beyond(model, loops, joined, rim) : std::nullopt;
+                return plane && std::abs(geometry::height(*plane, rim.base.origin)) <=
+                                    std::abs(cone->height) + model.tolerance;
+            };
+            const bool stepped = is_stepped(circle) || (is_circle && is_stepped(*other));
+            const bool is_chamfer = std::abs(std::abs(cone->from.slope) - 1) <= kAlikeSizes;
+            if (!(circle.needs_wall || needs || alone) || (stepped && !is_chamfer)) continue;
+            cones.push_back(std::move(*cone));
+        }
+    }
+    std::ranges::stable_sort(cones, {}, [](const ConeWall& cone) { return std::abs(cone.height); });
+    return cones;
 }
 
 /// The image of a round rim in a plane across its axis. Empty if the rim turns back on its way.
@@ -569,8 +657,16 @@ bool is_ring_at_step(const Model& model, FaceId face)
     if (both.size() != 2 || plane_of(model, face) || round_shape(model, face)) return false;
     const double a = geometry::length(use_places(model, both[0].uses)),
                  b = geometry::length(use_places(model, both[1].uses));
-    return std::abs(a - b) > kAlikeSizes * std::max(a, b) &&
-           continues_given_planes(model, both[0]) != continues_given_planes(model, both[1]);
+    const bool first = continues_given_planes(model, both[0]);
+    if (std::abs(a - b) <= kAlikeSizes * std::max(a, b) || first == continues_given_planes(model, both[1]))
+        return false;
+    const std::vector<Vec3> near = loop_places(model, both[first ? 0 : 1].uses),
+                            far = loop_places(model, both[first ? 1 : 0].uses);
+    const geometry::Plane plane = geometry::newell_plane({&near, 1});
+    const double rise = std::abs(geometry::height(plane, geometry::mean_point(far)));
+    const double wider = std::abs(a - b) / (2 * std::numbers::pi);
+    return std::abs(rise - wider) > kAlikeSizes * wider &&
+           runs_along(model, both[first ? 1 : 0], plane.normal);
 }
 
 bool is_bent_ring(const Model& model, FaceId face)
@@ -696,6 +792,21 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
                     entities_of(model, faces)},
                    from.needs_wall && to.needs_wall && holes.empty() ? 0 : 1, Assumed::round_wall);
         }
+    }
+    std::vector<RoundRim> round;
+    for (const std::vector<RoundRim>& group : groups) round.insert(round.end(), group.begin(), group.end());
+    for (const ConeWall& cone : cones_between(model, loops, round, joined, part)) {
+        if (joined.contains(cone.from.loop) || joined.contains(cone.to)) continue;
+        const std::vector<EdgeUse>&foot = loops[cone.from.loop].uses, &top = loops[cone.to].uses;
+        const auto [holes, taken] = holes_between(cone.from, loop_places(model, top));
+        if (!add_tube(filling, cone.from, foot, top, holes, context)) continue;
+        joined.insert(taken.begin(), taken.end());
+        joined.insert({cone.from.loop, cone.to});
+        assume(filling.closure,
+               {"closure.round_wall", "the rims of {} are joined by a straight round wall",
+                entities_of(model, std::vector{*cone.from.beside.begin(),
+                                               model.uses_of_edge(top.front().edge).front().face})},
+               1, Assumed::round_wall);
     }
     std::vector<Rim> images;
     for (const std::vector<RoundRim>& group : groups) {

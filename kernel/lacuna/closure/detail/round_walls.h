@@ -25,6 +25,10 @@ void add_wall(FlatFilling& filling, const std::vector<std::vector<topology::Edge
 /// could close as well is added, so that the walls are shortest. If no rim needs a wall, the two rims of two
 /// unconnected parts are paired. Loops on the wall between two rims, such as those of branches, are holes
 /// of that wall.
+///
+/// Of the rims that are left, circles are joined by conical walls to other rims on their axis, if one of both
+/// needs a wall or no other loop is left. A straight wall up to the plane of the next flat rim is likelier,
+/// unless the cone is one of 45°, such as a chamfer.
 /// @return  the free loops that are left.
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);
@@ -38,7 +42,8 @@ bool continues_given_planes(const topology::Model& model, const topology::Rim& r
 
 /// Whether a curved void face joins two rims of different lengths, and a flat face would continue the given
 /// planes at exactly one of them. Then a straight wall from that rim, with a flat face at its end, is as
-/// likely as the curved face.
+/// likely as the curved face, if the given faces at the other rim run along that wall. A cone of 45°, such as
+/// a chamfer, is likelier.
 bool is_ring_at_step(const topology::Model& model, FaceId face);
 
 /// Whether a void face joins two rims and is neither curved like a sphere, cylinder or cone, nor straight
