@@ -130,6 +130,26 @@ Delete { Surface{w()}; }]]):format(10 - depth, radius, 10 - depth, depth + above
     ("pocket %d: %g, not %g"):format(member, quality.volume, truth))
 end
 
+-- A pulley without one of its cones and the opposite end: its bore does not stick out of the cone that is
+-- left.
+for _, height in ipairs { 4, 10 } do
+  local model = solids("pulley", ([[
+Cone(1) = {0,0,0, 0,0,%g, 25,20};  Cone(2) = {0,0,%g, 0,0,%g, 20,25};  Cylinder(3) = {0,0,-1, 0,0,99, 5};
+BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+BooleanDifference(5) = { Volume{4}; Delete; }{ Volume{3}; Delete; };]]):format(height, height, height))
+  local faces = {}
+  for _, face in ipairs(model:faces()) do
+    local low, high = face.box[1][3], face.box[2][3]
+    if not (high < 1e-3 or low > height / 2 and high - low > 1) then faces[#faces + 1] = face end
+  end
+  check.equal(#faces, 3, "faces of a pulley")
+  local open = model:open_volume { faces = faces }
+  open:close()
+  local top = 0
+  for _, face in ipairs(open:model():faces()) do top = math.max(top, face.box[2][3]) end
+  check.near(top, 2 * height, 1e-3, "pulley of " .. height)
+end
+
 -- The faces of a shell mesh are oriented anyhow: a pipe still ends in the plane of a pan's rim.
 for flips = 0, 31 do
   local model = lacuna.model()

@@ -140,26 +140,43 @@ bool are_one_line(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
     return lies_on(a, b) && lies_on(b, a);
 }
 
-/// Whether a rim of a part lies in front of or behind a loop in a plane, but the part itself crosses the
-/// plane elsewhere: the wall between rim and loop is missing, such as that of a boss with a bore. Not if
-/// another rim of the part around the loop lies there as well: the wall may lead to that rim.
+/// Whether a wall between a rim of a part and a loop in a plane is missing, although the part crosses the
+/// plane inside the loop. Not if the part lies along the loop there. Such a rim
+/// - lies in front of or behind the loop, such as that of a boss with a bore, and no other rim of the part
+///   around the loop lies there as well, or
+/// - lies in front of the plane, and is wider than the part in the plane, such as that of a pulley.
 bool has_rim_over(const Model& model, const std::vector<FaceId>& part, const std::vector<FaceId>& around,
                   const geometry::Plane& plane, const std::vector<Vec3>& loop)
 {
-    const auto lies_over = [&](const Rim& rim) {
-        std::vector<Vec3> foot = loop_places(model, rim.uses);
-        if (std::abs(geometry::height(plane, foot.front())) <= model.tolerance) return false;
-        for (Vec3& p : foot) p -= geometry::height(plane, p) * plane.normal;
-        return are_one_line(foot, loop);
-    };
-    const auto fills_loop = [&](const SectionWalk& walk) {
-        std::vector<Vec3> places;
+    std::vector<std::vector<Vec3>> sections;
+    for (const SectionWalk& walk : section_walks(model, part, plane, model.tolerance)) {
+        std::vector<Vec3>& places = sections.emplace_back();
         for (const SectionPlace& place : walk.places) places.push_back(place_at(model, place, plane));
-        return are_one_line(places, loop);
+        if (are_one_line(places, loop)) return false;
+    }
+    const auto image_of = [&](const Rim& rim) {
+        std::vector<Vec3> foot = loop_places(model, rim.uses);
+        if (std::abs(geometry::height(plane, foot.front())) <= model.tolerance) foot.clear();
+        for (Vec3& p : foot) p -= geometry::height(plane, p) * plane.normal;
+        return foot;
     };
-    return std::ranges::any_of(rims(model, part), lies_over) &&
-           std::ranges::none_of(rims(model, around), lies_over) &&
-           std::ranges::none_of(section_walks(model, part, plane, model.tolerance), fills_loop);
+    const auto lies_over = [&](const Rim& rim) {
+        const std::vector<Vec3> foot = image_of(rim);
+        return !foot.empty() && are_one_line(foot, loop);
+    };
+    const auto is_wider = [&](const Rim& rim) {
+        const std::vector<Vec3> foot = image_of(rim);
+        if (foot.empty() || geometry::height(plane, loop_places(model, rim.uses).front()) < 0) return false;
+        const std::vector<Vec2> outline = flat_places(plane, foot);
+        return std::ranges::all_of(sections, [&](const std::vector<Vec3>& section) {
+            return !are_one_line(section, foot) && std::ranges::all_of(section, [&](const Vec3& p) {
+                return geometry::lies_inside(outline, geometry::to_plane(plane, p));
+            });
+        });
+    };
+    const std::vector<Rim> own = rims(model, part);
+    return std::ranges::any_of(own, is_wider) ||
+           (std::ranges::any_of(own, lies_over) && std::ranges::none_of(rims(model, around), lies_over));
 }
 
 /// Whether another rim of some faces lies in the plane of a loop and encloses it.

@@ -47,8 +47,8 @@ struct Overhang {
 /// The rim is no such rim in these cases:
 /// - A part lies in front of the plane, or crosses it and has a rim in it: the volume continues there, and
 ///   faces at a step are missing.
-/// - A part that crosses the plane has such a rim in front of the plane or behind it: the wall between both
-///   rims is missing.
+/// - A part that crosses the plane has such a rim in front of the plane or behind it, or in front of it a
+///   rim that is wider than the part in the plane: the wall between both rims is missing.
 /// - A face in the plane reaches across the rim: it closes the rim.
 /// - Another rim lies in the plane around it: a face between both rims is missing.
 /// - The rim belongs to a closed solid of the model that fills it: faces of that solid are missing.
