@@ -132,15 +132,14 @@ namespace {
 Vec3 way_from(const Model& model, EdgeId id, VertexId vertex)
 {
     const std::vector<Index>& points = model[id].points;
-    const bool ahead = model[id].from == vertex;
-    const Index next = ahead ? points[1] : points[points.size() - 2];
+    const Index next = model[id].from == vertex ? points[1] : points[points.size() - 2];
     return (model.at(next) - model.at(model[vertex].point)).normalized();
 }
 
 /// Planes that cut a volume towards parts whose vertices have three edges, the first of these that exist:
 /// - planes that hold two edges which meet at a vertex with more than three edges and bound no common face;
 ///   planes that hold more edges come first;
-/// - planes across two edges of a face that continue each other at a vertex, through a third edge there;
+/// - planes of bent edges at a vertex where two other edges of one face continue each other;
 /// - planes across faces with two sides, midway between the vertices of these sides.
 std::vector<geometry::Plane> planes_at_vertices(const Model& model)
 {
@@ -181,16 +180,12 @@ std::vector<geometry::Plane> planes_at_vertices(const Model& model)
             for (const EdgeId a : at[v])
                 for (const EdgeId b : at[v]) {
                     if (!(a < b) || a == third || b == third || !share_face(a, b)) continue;
-                    const Vec3 way = way_from(model, a, VertexId(v)), back = way_from(model, b, VertexId(v));
-                    if (way.dot(back) > -kOneCurve) continue;
-                    // The plane of the third edge or, if this edge is straight, the plane across the others.
+                    const VertexId here(v);
+                    if (way_from(model, a, here).dot(way_from(model, b, here)) > -kOneCurve) continue;
                     const geometry::Spread spread = geometry::spread_of(
                         places_at(model, model[third].points));
-                    const Vec3 along = spread.axis.col(2), across = way - back;
-                    const bool bent = spread.square(1) > kVisible * kVisible * spread.square(2);
-                    planes.push_back(geometry::plane_across(
-                        spread.centre, bent ? Vec3(spread.axis.col(0))
-                                            : Vec3((across - across.dot(along) * along).normalized())));
+                    if (spread.square(1) > kVisible * kVisible * spread.square(2))
+                        planes.push_back(geometry::plane_across(spread.centre, spread.axis.col(0)));
                 }
     for (const Face& face : model.faces) {
         std::vector<Vec3> corners;

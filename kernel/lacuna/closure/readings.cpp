@@ -14,6 +14,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/segment.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -164,12 +165,14 @@ bool assumes_only(const Closure& closure, std::initializer_list<Assumed> kinds)
     });
 }
 
-/// Whether a hole of a given face is closed in its plane.
+/// Whether a hole of given faces is closed in their plane.
 bool closes_hole(const Model& model, const Closure& closure)
 {
     return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
-        const std::vector<Loop>& loops = model[face].loops;
-        return loops.size() == 1 && continues_given_planes(model, {loops.front().uses});
+        const auto plane = model[face].loops.size() == 1 ? plane_of(model, face) : std::nullopt;
+        return plane && std::ranges::all_of(faces_beside(model, face), [&](FaceId other) {
+                   return lies_in_plane(model, other, *plane);
+               });
     });
 }
 

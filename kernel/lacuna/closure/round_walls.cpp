@@ -474,16 +474,14 @@ struct ConeWall {
 std::optional<ConeWall> cone_to(const Model& model, RoundRim circle, const Rim& loop, std::size_t to)
 {
     const std::vector<Vec3> places = loop_places(model, loop.uses);
-    double product = 0, square = 0, sum = 0;
+    double product = 0, square = 0;
     for (const Vec3& p : places) {
         const double height = geometry::height(circle.base, p);
         product += height * (distance_to_axis(circle.base, p) - circle.radius);
         square += height * height;
-        sum += height;
     }
     circle.slope = product / square;
-    const auto count = static_cast<double>(places.size());
-    const double rise = std::sqrt(square / count);
+    const double rise = std::sqrt(square / static_cast<double>(places.size()));
     if (!(rise > model.tolerance) || std::abs(circle.slope) * rise <= kAlikeSizes * circle.radius ||
         !is_on_wall(circle, places) ||
         std::abs(std::abs(turn_round(circle.base, places)) - 2 * std::numbers::pi) > kParallel)
@@ -494,12 +492,13 @@ std::optional<ConeWall> cone_to(const Model& model, RoundRim circle, const Rim& 
             return continues(model.uses_of_edge(use.edge).front().face);
         }))
         return std::nullopt;
-    return ConeWall{std::move(circle), to, sum / count};
+    return ConeWall{std::move(circle), to, rise};
 }
 
 /// Conical walls between free loops that are not joined yet, the shortest first. One of the rims needs a
-/// wall, or these are the only two loops, of unconnected parts. A straight wall up to the plane of the next
-/// flat rim is likelier, unless the cone is one of 45°, such as a chamfer.
+/// wall, or these are the only two loops, of unconnected parts. Unless the cone is one of 45°, such as a
+/// chamfer, a straight wall up to the plane of the next flat rim is likelier, and one rim does not suffice
+/// that needs a wall because it is a hole: the hole may be closed, or go through another face.
 std::vector<ConeWall> cones_between(const Model& model, const std::vector<Rim>& loops,
                                     const std::vector<RoundRim>& round, const std::set<std::size_t>& joined,
                                     const std::vector<std::size_t>& part)
@@ -518,18 +517,27 @@ std::vector<ConeWall> cones_between(const Model& model, const std::vector<Rim>& 
             if (!cone) continue;
             const bool alone = loops.size() == joined.size() + 2 && part_of(l) != part_of(circle.loop);
             const bool needs = !is_circle || other->needs_wall;
+            const auto ends_face = [&](const RoundRim& rim) {
+                return rim.needs_wall && std::ranges::any_of(rim.beside, [&](FaceId face) {
+                           const std::vector<EdgeUse>& outer = model[face].loops.front().uses;
+                           return std::ranges::find(outer, loops[rim.loop].uses.front().edge,
+                                                    &EdgeUse::edge) != outer.end();
+                       });
+            };
+            const bool ends = ends_face(circle) || (is_circle && ends_face(*other));
             const auto is_stepped = [&](const RoundRim& rim) {
                 const auto plane = rim.needs_wall ? plane_beyond(model, loops, joined, rim) : std::nullopt;
-                return plane && std::abs(geometry::height(*plane, rim.base.origin)) <=
-                                    std::abs(cone->height) + model.tolerance;
+                return plane &&
+                       std::abs(geometry::height(*plane, rim.base.origin)) <= cone->height + model.tolerance;
             };
             const bool stepped = is_stepped(circle) || (is_circle && is_stepped(*other));
             const bool is_chamfer = std::abs(std::abs(cone->from.slope) - 1) <= kAlikeSizes;
-            if (!(circle.needs_wall || needs || alone) || (stepped && !is_chamfer)) continue;
+            const bool both = circle.needs_wall && needs, any = circle.needs_wall || needs;
+            if (is_chamfer ? !(any || alone) : stepped || !(ends || both || alone)) continue;
             cones.push_back(std::move(*cone));
         }
     }
-    std::ranges::stable_sort(cones, {}, [](const ConeWall& cone) { return std::abs(cone.height); });
+    std::ranges::stable_sort(cones, {}, &ConeWall::height);
     return cones;
 }
 
