@@ -44,8 +44,8 @@ struct FacetSoup {
     std::vector<int> quad_label;
     std::vector<std::string> label_name; ///< name of each label; labels beyond the end of the list have no
                                          ///< name
-    /// By label: whether its facets are a mesh whose nodes must be kept. For labels beyond the end of the list,
-    /// those of quads are.
+    /// By label: whether its facets are a mesh whose nodes must be kept. For labels beyond the end of the
+    /// list, those of quads are.
     std::vector<char> label_keeps_nodes;
 };
 
