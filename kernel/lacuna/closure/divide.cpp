@@ -128,6 +128,10 @@ std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_
 
 namespace {
 
+/// Largest number of edges at a vertex through which a volume is cut. The parts of a pyramid with nine sides
+/// could not be meshed together.
+constexpr std::size_t kMostAtVertex = 6;
+
 /// The direction in which an edge leaves one of its ends.
 Vec3 way_from(const Model& model, EdgeId id, VertexId vertex)
 {
@@ -137,7 +141,7 @@ Vec3 way_from(const Model& model, EdgeId id, VertexId vertex)
 }
 
 /// Planes that cut a volume towards parts whose vertices have three edges, the first of these that exist:
-/// - planes that hold two edges which meet at a vertex with more than three edges and bound no common face;
+/// - planes that hold two edges which meet at a vertex with four to six edges and bound no common face;
 ///   planes that hold more edges come first;
 /// - planes of bent edges at a vertex where two other edges of one face continue each other;
 /// - planes across faces with two sides, midway between the vertices of these sides.
@@ -160,7 +164,7 @@ std::vector<geometry::Plane> planes_at_vertices(const Model& model)
     };
     std::vector<std::pair<std::ptrdiff_t, geometry::Plane>> found;
     for (const std::vector<EdgeId>& edges : at)
-        for (std::size_t a = 0; edges.size() > 3 && a < edges.size(); ++a)
+        for (std::size_t a = 0; edges.size() > 3 && edges.size() <= kMostAtVertex && a < edges.size(); ++a)
             for (std::size_t b = 0; b < a; ++b) {
                 if (share_face(edges[a], edges[b])) continue;
                 std::vector<Vec3> places = places_at(model, model[edges[a]].points);
@@ -210,8 +214,7 @@ std::vector<StepPiece> divided_at_vertices(const OpenVolume& volume, std::size_t
         if (!parts || parts->size() < 2) continue;
         std::vector<StepPiece> made;
         for (std::size_t left = parts->size(); StepPiece & part : *parts) {
-            --left;
-            if (made.size() + left >= most) return {};
+            if (made.size() + --left >= most) return {};
             const std::size_t here = most - made.size() - left;
             std::vector<StepPiece> own{std::move(part)};
             if (!find_ends(own.front(), can_sweep, context)) {

@@ -35,7 +35,7 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - across an edge between coplanar faces;
 /// - across an axis where smooth parts of the skin turn over, such as a ring in a cup;
 /// - at a centre: by three perpendicular planes through the centre of a sphere or the apex of a cone;
-/// - at vertices: by planes through edges of vertices with more than three edges.
+/// - at vertices: by planes through edges of vertices with four to six edges.
 ///
 /// A cut is undone if none of the resulting pieces has ends or is divided.
 ///
