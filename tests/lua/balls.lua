@@ -29,12 +29,6 @@ local bodies = {
         high, random(0.9, 1.1), high, r) .. "BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }",
         4 * high - 2 / 3 * math.pi * r ^ 3
   end,
-  -- Four faces of two sides meet at both poles.
-  crossing = function(random)
-    local r = random(0.5, 2)
-    return ("Cylinder(1) = {-9,0,0, 18,0,0, %.15g}; Cylinder(2) = {0,-9,0, 0,18,0, %.15g};\n"):format(r, r) ..
-        "BooleanIntersection{ Volume{1}; Delete; }{ Volume{2}; Delete; }", 16 / 3 * r ^ 3
-  end,
   -- Three edges at a corner are rounded. Rims of the parts beside that corner correspond to several edges.
   corner = function(random)
     local r, size = random(0.3, 0.7), { random(1.5, 3), random(1.5, 3), random(1.5, 3) }

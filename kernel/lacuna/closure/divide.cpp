@@ -132,19 +132,8 @@ namespace {
 /// could not be meshed together.
 constexpr std::size_t kMostAtVertex = 6;
 
-/// The direction in which an edge leaves one of its ends.
-Vec3 way_from(const Model& model, EdgeId id, VertexId vertex)
-{
-    const std::vector<Index>& points = model[id].points;
-    const Index next = model[id].from == vertex ? points[1] : points[points.size() - 2];
-    return (model.at(next) - model.at(model[vertex].point)).normalized();
-}
-
-/// Planes that cut a volume towards parts whose vertices have three edges, the first of these that exist:
-/// - planes that hold two edges which meet at a vertex with four to six edges and bound no common face;
-///   planes that hold more edges come first;
-/// - planes of bent edges at a vertex where two other edges of one face continue each other;
-/// - planes across faces with two sides, midway between the vertices of these sides.
+/// Planes that hold two edges which meet at a vertex with four to six edges and bound no common face. Planes
+/// that hold more edges come first.
 std::vector<geometry::Plane> planes_at_vertices(const Model& model)
 {
     std::vector<std::vector<EdgeId>> at(model.vertices.size());
@@ -179,27 +168,6 @@ std::vector<geometry::Plane> planes_at_vertices(const Model& model)
     std::ranges::stable_sort(found, std::greater{}, &std::pair<std::ptrdiff_t, geometry::Plane>::first);
     std::vector<geometry::Plane> planes;
     for (const auto& [count, plane] : found) planes.push_back(plane);
-    for (std::size_t v = 0; found.empty() && v < at.size(); ++v)
-        for (const EdgeId third : at[v])
-            for (const EdgeId a : at[v])
-                for (const EdgeId b : at[v]) {
-                    if (!(a < b) || a == third || b == third || !share_face(a, b)) continue;
-                    const VertexId here(v);
-                    if (way_from(model, a, here).dot(way_from(model, b, here)) > -kOneCurve) continue;
-                    const geometry::Spread spread = geometry::spread_of(
-                        places_at(model, model[third].points));
-                    if (spread.square(1) > kVisible * kVisible * spread.square(2))
-                        planes.push_back(geometry::plane_across(spread.centre, spread.axis.col(0)));
-                }
-    for (const Face& face : model.faces) {
-        std::vector<Vec3> corners;
-        for (const EdgeUse& use : uses_of(face))
-            if (const VertexId vertex = use_from(model, use); at[vertex.index()].size() > 2)
-                corners.push_back(model.at(model[vertex].point));
-        if (!found.empty() || face.loops.size() != 1 || corners.size() != 2) continue;
-        planes.push_back(
-            geometry::plane_across((corners[0] + corners[1]) / 2, (corners[1] - corners[0]).normalized()));
-    }
     return planes;
 }
 

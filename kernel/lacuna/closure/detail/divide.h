@@ -25,10 +25,8 @@ std::vector<StepPiece> divided_at_flat_edge(const topology::OpenVolume& volume, 
                                             const CanSweep& can_sweep, const RunContext& context);
 
 /// Cut a volume by a plane through two edges at a vertex with four to six edges, such as the apex of a
-/// pyramid. Without such vertices, cut it by the plane of a bent edge at a vertex where two other edges of
-/// one face continue each other, or across a face with two sides. Parts without ends are cut again, or
-/// divided at their middles. Empty if no plane cuts the volume, or the first that does leaves a part that
-/// cannot be divided.
+/// pyramid. Parts without ends are cut again, or divided at their middles. Empty if no plane cuts the volume,
+/// or the first that does leaves a part that cannot be divided.
 std::vector<StepPiece> divided_at_vertices(const topology::OpenVolume& volume, std::size_t most,
                                            const CanSweep& can_sweep, const RunContext& context);
 
