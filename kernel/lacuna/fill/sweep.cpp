@@ -420,7 +420,9 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     } else if (mixed) {
         if (!sealed.no_roles) sealed.no_roles = why;
         filled.mesh = fill_alone({&sealed, nullptr, nullptr, options, true, true}, context);
-    } else if (mesher.failure() && !options.boundary_layers.empty()) {
+    } else if (mesher.failure() && !options.boundary_layers.empty() &&
+               why.code().find(".layers_") == std::string_view::npos) {
+        // The error of the whole does not name the rows.
         throw NotSweepable(Message("sweep.layers_pieces",
                                    "no single sweep fills the volume, and its pieces cannot be meshed with "
                                    "the boundary layers asked for")
