@@ -447,20 +447,29 @@ Filled sweep_once_or_better(const Volume& volume, bool pieces, bool told, const 
     std::vector<std::string> notes, notes_of_pieces;
     RunContext own = context;
     own.log = [&](std::string_view line) { notes.emplace_back(line); };
-    Filled filled = sweep_once(volume, pieces, request, own);
-    if (const double least = least_of(parts(filled)); least < kPoorCell) {
+    const auto log_notes = [&] {
+        for (const std::string& note : notes) log_line(context, note);
+    };
+    std::optional<Filled> filled;
+    try {
+        filled = sweep_once(volume, pieces, request, own);
+    } catch (...) {
+        log_notes();
+        throw;
+    }
+    if (const double least = least_of(parts(*filled)); least < kPoorCell) {
         const Message why("quality.below_limit", "the least scaled Jacobian of a single sweep is {:.2g}",
                           found(least));
         auto better = attempted("in pieces", notes_of_pieces, context, [&](const RunContext& other) {
             return sweep_in_pieces(volume, why, told, request, other);
         });
         if (better && least_of(parts(*better)) > least + kVisible) {
-            filled = std::move(*better);
+            filled = std::move(better);
             notes = std::move(notes_of_pieces);
         }
     }
-    for (const std::string& note : notes) log_line(context, note);
-    return filled;
+    log_notes();
+    return std::move(*filled);
 }
 
 std::vector<std::string>& report_of(Filled& filled)
@@ -489,6 +498,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
     for (std::size_t next = 0;; ++next) {
         const Volume& now = other ? *other : volume;
         const bool pieces = has_pieces(now, context);
+        const bool told_before = told;
         told = told || !pieces;
         const auto note_failure = [&](const Error& error) {
             if (!first) first = std::current_exception();
@@ -499,7 +509,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
             log_line(context, failed.back());
         };
         try {
-            Filled filled = sweep_once_or_better(now, pieces, told, request, context);
+            Filled filled = sweep_once_or_better(now, pieces, told_before, request, context);
             if (!failed.empty())
                 failed.push_back(formatted("roles: swept {} instead, which encloses the same volume",
                                            ends_in_words(filled.volumes.front().volume)));
