@@ -193,7 +193,8 @@ std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
     return surface::imprint_target(volume, links, size);
 }
 
-/// Refuse a target with quads that are far smaller than those of the source, compared with the whole ends.
+/// Refuse a target with quads that are far smaller than those of the source, compared with the whole ends: its
+/// cells are nearly flat.
 /// Example: the floor of a long tube inside the source.
 void check_shrinking(const mesh::HexMesh& mesh)
 {
@@ -411,8 +412,9 @@ private:
                                                       options_.min_scaled_jacobian)
                                      : prove_or_improve(result_, volume_.model, faces_, still,
                                                         std::move(held_), options_, context_);
-        if (!good_ && !motion_ && !keeps_target_) check_shrinking(result_.mesh);
         const quality::Quality& quality = proof.quality;
+        const bool nearly_flat = quality.min_scaled_jacobian < kFoldedQuad;
+        if (nearly_flat && !good_ && !motion_ && !keeps_target_) check_shrinking(result_.mesh);
         result_.min_scaled_jacobian = quality.min_scaled_jacobian;
         const std::string wedges = quality.wedges > 0 ? formatted(" hexahedra and {} wedges", quality.wedges)
                                                       : "";
