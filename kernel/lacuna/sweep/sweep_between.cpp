@@ -193,9 +193,8 @@ std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
     return surface::imprint_target(volume, links, size);
 }
 
-/// Refuse a target with quads that are far smaller than those of the source, compared with the whole ends: its
-/// cells are nearly flat.
-/// Example: the floor of a long tube inside the source.
+/// Refuse a target with quads that are far smaller than those of the source, compared with the whole ends:
+/// its cells are nearly flat. Example: the floor of a long tube inside the source.
 void check_shrinking(const mesh::HexMesh& mesh)
 {
     const std::size_t top = index(mesh.nodes_per_layer * mesh.layers);
