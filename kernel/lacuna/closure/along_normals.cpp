@@ -256,11 +256,7 @@ private:
         for (Edge& edge : model_.edges) split_edge(edge, sides, on_curves);
         for (Face& face : model_.faces) {
             cut_at_sides(model_.points, face, sides);
-            if (!face.surface || face.kind == "plane") continue;
-            for (std::size_t t = 0; t < face.triangles.size(); ++t)
-                for (std::size_t k = 0; k < 3; ++k)
-                    if (const Index p = face.triangles[t][k]; index(p) >= first && !on_curves.contains(p))
-                        face.surface->project({&model_.points[index(p)], 1}, {&face.uv[t][k], 1});
+            if (face.surface && face.kind != "plane") project(face, first, on_curves);
         }
         auto side = split.begin();
         for (std::size_t p = first; p < model_.points.size(); ++p, ++side) {
@@ -271,25 +267,53 @@ private:
         }
     }
 
+    /// Put the new points of a face, except those on exact curves, onto its surface.
+    /// @param first  the first new point
+    void project(Face& face, std::size_t first, const std::set<Index>& on_curves)
+    {
+        std::vector<std::pair<std::size_t, std::size_t>> corners; // facet and corner
+        std::vector<Vec3> places;
+        std::vector<Vec2> params;
+        for (std::size_t t = 0; t < face.triangles.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index p = face.triangles[t][k];
+                if (index(p) < first || on_curves.contains(p)) continue;
+                corners.emplace_back(t, k);
+                places.push_back(model_.at(p));
+                params.push_back(face.uv[t][k]);
+            }
+        if (corners.empty()) return;
+        face.surface->project(places, params);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const auto& [t, k] = corners[i];
+            model_.points[index(face.triangles[t][k])] = places[i];
+            face.uv[t][k] = params[i];
+        }
+    }
+
     void split_edge(Edge& edge, const SidePoints& sides, std::set<Index>& on_curves)
     {
-        std::vector<Index> points{edge.points.front()};
-        std::vector<double> params;
+        std::vector<Index> points{edge.points.front()}, fresh;
+        std::vector<double> params, at; // of all points, and of the new ones
         if (!edge.params.empty()) params.push_back(edge.params.front());
         for (std::size_t i = 1; i < edge.points.size(); ++i) {
             for (const Index made : sides.on(edge.points[i - 1], edge.points[i])) {
                 points.push_back(made);
                 if (edge.params.empty()) continue;
-                params.push_back((edge.params[i - 1] + edge.params[i]) / 2);
-                if (!edge.curve) continue;
-                edge.curve->evaluate({&params.back(), 1}, {&model_.points[index(made)], 1});
-                on_curves.insert(made);
+                fresh.push_back(made);
+                at.push_back((edge.params[i - 1] + edge.params[i]) / 2);
+                params.push_back(at.back());
             }
             points.push_back(edge.points[i]);
             if (!edge.params.empty()) params.push_back(edge.params[i]);
         }
         edge.points = std::move(points);
         edge.params = std::move(params);
+        if (!edge.curve || fresh.empty()) return;
+        std::vector<Vec3> places(at.size());
+        edge.curve->evaluate(at, places);
+        for (std::size_t i = 0; i < fresh.size(); ++i) model_.points[index(fresh[i])] = places[i];
+        on_curves.insert(fresh.begin(), fresh.end());
     }
 
     ModelBuilder model_;

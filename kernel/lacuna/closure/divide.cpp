@@ -152,8 +152,9 @@ std::vector<geometry::Plane> planes_at_vertices(const Model& model)
         });
     };
     std::vector<std::pair<std::ptrdiff_t, geometry::Plane>> found;
-    for (const std::vector<EdgeId>& edges : at)
-        for (std::size_t a = 0; edges.size() > 3 && edges.size() <= kMostAtVertex && a < edges.size(); ++a)
+    for (const std::vector<EdgeId>& edges : at) {
+        if (edges.size() < 4 || edges.size() > kMostAtVertex) continue;
+        for (std::size_t a = 0; a < edges.size(); ++a)
             for (std::size_t b = 0; b < a; ++b) {
                 if (share_face(edges[a], edges[b])) continue;
                 std::vector<Vec3> places = places_at(model, model[edges[a]].points);
@@ -165,6 +166,7 @@ std::vector<geometry::Plane> planes_at_vertices(const Model& model)
                     std::ranges::count_if(model.edges, [&](const Edge& edge) { return holds(plane, edge); }),
                     plane);
             }
+    }
     std::ranges::stable_sort(found, std::greater{}, &std::pair<std::ptrdiff_t, geometry::Plane>::first);
     std::vector<geometry::Plane> planes;
     for (const auto& [count, plane] : found) planes.push_back(plane);

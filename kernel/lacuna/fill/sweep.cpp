@@ -350,9 +350,6 @@ std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& 
                                topology::entities_of(open.model, parts), open.model[parts.front()].kind));
     const topology::Model joined = topology::join_faces(open.model, faces, context);
     RoleRequest request;
-    request.name = volume.name;
-    request.material = volume.material;
-    request.glued = volume.glued;
     if (named) {
         request.roles.emplace();
         for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -365,14 +362,7 @@ std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& 
     } else {
         request.faces = topology::all_faces(joined);
     }
-    RunContext quiet = context; // the notes on these faces were logged
-    quiet.log = nullptr;
-    Volume result = fill::open(joined, request, quiet);
-    result.decks = volume.decks;
-    result.scale = volume.scale;
-    result.unit = volume.unit;
-    result.told = true;
-    return result;
+    return open_anew(volume, joined, std::move(request), context);
 }
 
 Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunContext& context);

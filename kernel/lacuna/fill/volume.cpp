@@ -337,6 +337,22 @@ Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string
     return volume;
 }
 
+Volume open_anew(const Volume& volume, const topology::Model& model, RoleRequest request,
+                 const RunContext& context)
+{
+    RunContext quiet = context;
+    quiet.log = nullptr;
+    request.name = volume.name;
+    request.material = volume.material;
+    request.glued = volume.glued;
+    Volume own = open(model, request, quiet);
+    own.decks = volume.decks;
+    own.scale = volume.scale;
+    own.unit = volume.unit;
+    own.told = true;
+    return own;
+}
+
 namespace {
 
 /// A piece between whose ends its walls do not run. If these ends were found for the whole, where a mouth of
@@ -346,19 +362,9 @@ Volume with_own_ends(Volume piece, const RunContext& context)
     if (piece.roles_by == closure::RolesBy::person || !topology::free_edges(piece.volume).empty() ||
         closure::walls_run_between_ends(piece.volume))
         return piece;
-    RunContext quiet = context; // the notes on the whole were logged
-    quiet.log = nullptr;
-    RoleRequest request;
-    request.name = piece.name;
-    request.material = piece.material;
-    request.glued = piece.glued;
-    Volume own = open(piece.volume.model, request, quiet);
+    Volume own = open_anew(piece, piece.volume.model, {}, context);
     if (own.no_roles) return piece;
-    own.decks = piece.decks;
-    own.scale = piece.scale;
-    own.unit = piece.unit;
     own.level = piece.level;
-    own.told = true;
     return own;
 }
 

@@ -419,10 +419,10 @@ private:
         // A member with an explicit option `quads` also keeps the quads of a neighbour that was meshed first.
         // It does not if it has rows along walls or boundary layers: these continue across the shared face,
         // so the member paves that face itself.
-        if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
-            for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
+        const bool all = options.quads != Quads::automatic && options.rows == 0 &&
+                         options.boundary_layers.empty();
         for (const Neighbour& n : handed)
-            if (rows_continue(m, n)) options.beside.handed.insert(n.own);
+            if (all || rows_continue(m, n)) options.beside.handed.insert(n.own);
         for (const auto& [own, other, from, onto] : handed) {
             hand_on(result_.parts[other], from, volume, own, onto);
             // On a void face, the neighbour's mesh defines the shape.

@@ -59,29 +59,50 @@ double area_of(const OpenVolume& volume, Role end)
     return area;
 }
 
-/// For each side of each facet of a face: the angle by which the face bends there [radian], negative where it
-/// is concave, and the facet beside it. Zero, and the facet itself, on the boundary.
-std::vector<std::array<std::pair<double, std::size_t>, 3>> bends_of_facets(const Model& model,
-                                                                           const Face& face)
+/// How a face bends at the sides between its facets.
+struct FaceBends {
+    struct Side {
+        Index a, b;    ///< points at its ends
+        double turn;   ///< angle between the facets [radian]; negative: concave
+        double length; ///< [model length]
+        double area;   ///< of the two facets [model length²]
+    };
+    std::vector<Side> sides;
+    /// How much the face bends in its second direction, relative to the first: 0 for a cylinder, whose facets
+    /// turn at one of their sides each, and about 1 for a sphere.
+    double second = 0;
+};
+
+FaceBends bends_of(const Model& model, const Face& face)
 {
-    std::vector<std::array<std::pair<double, std::size_t>, 3>> bends(face.triangles.size());
+    FaceBends bends;
+    std::vector<std::array<double, 3>> of_facet(face.triangles.size(), {0, 0, 0});
     std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> first; // facet and side
     for (std::size_t f = 0; f < face.triangles.size(); ++f) {
         const Triangle& t = face.triangles[f];
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = t[k], b = t[(k + 1) % 3];
-            bends[f][k].second = f;
             const auto [other, fresh] = first.try_emplace(edge_key(a, b), f, k);
             if (fresh) continue;
             const auto [g, j] = other->second;
-            const Vec3 along = (model.at(b) - model.at(a)).stableNormalized();
-            const Vec3 own = facet_area_vector(model, t).stableNormalized();
-            const Vec3 beside = facet_area_vector(model, face.triangles[g]).stableNormalized();
-            const double turn = std::atan2(beside.cross(own).dot(along), own.dot(beside));
-            bends[f][k] = {turn, g};
-            bends[g][j] = {turn, f};
+            const Vec3 side = model.at(b) - model.at(a);
+            const Vec3 own = facet_area_vector(model, t);
+            const Vec3 beside = facet_area_vector(model, face.triangles[g]);
+            const double turn = std::atan2(
+                beside.stableNormalized().cross(own.stableNormalized()).dot(side.stableNormalized()),
+                own.stableNormalized().dot(beside.stableNormalized()));
+            if (turn == 0) continue;
+            bends.sides.push_back({a, b, turn, side.norm(), own.norm() + beside.norm()});
+            of_facet[f][k] = of_facet[g][j] = std::abs(turn) * side.norm();
         }
     }
+    double most = 0, next = 0; // the two largest bends of each facet
+    for (std::array<double, 3>& here : of_facet) {
+        std::ranges::sort(here);
+        most += here[2];
+        next += here[1];
+    }
+    if (most > 0) bends.second = next / most;
     return bends;
 }
 
@@ -108,39 +129,20 @@ double lost_on_end(const OpenVolume& volume, Role end, double scale, const Sweep
         // Sides of order 2 lie on exact surfaces and lose nothing there. On facets they may have been kept
         // straight for better cells.
         if (face.kind == "plane" || (options.order > 1 && face.surface != nullptr)) continue;
-        const auto bends = bends_of_facets(model, face);
-        const auto side = [&](std::size_t f, std::size_t k) -> Vec3 {
-            return model.at(face.triangles[f][(k + 1) % 3]) - model.at(face.triangles[f][k]);
-        };
-        double first = 0, second = 0; // the two largest bends of each facet
-        for (std::size_t f = 0; f < bends.size(); ++f) {
-            std::array<double, 3> here{};
-            for (std::size_t k = 0; k < 3; ++k) here[k] = std::abs(bends[f][k].first) * side(f, k).norm();
-            std::ranges::sort(here);
-            first += here[2];
-            second += here[1];
-        }
-        if (first == 0) continue;
         // Quads are even in the plane, so they are longer on a steep end. If a face bends in one direction
         // only, such as a cylinder, its rims bend as it does, so its sides are also limited as theirs are.
         const Vec3 own = face_area_vector(model, id);
         const double flat = std::lerp(own.norm(), std::abs(own.dot(normal)), alike);
         const double steep = std::min(std::sqrt(face_area(model, id) / flat), kSteepest);
-        for (std::size_t f = 0; f < bends.size(); ++f) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto [turn, beside] = bends[f][k];
-                const Index a = face.triangles[f][k], b = face.triangles[f][(k + 1) % 3];
-                if (turn == 0 || (kept.contains(a) && kept.contains(b))) continue;
-                const double length = side(f, k).norm();
-                const double area = facet_area_vector(model, face.triangles[f]).norm() +
-                                    facet_area_vector(model, face.triangles[beside]).norm();
-                const double by_size = steep * kLonger * size((model.at(a) + model.at(b)) / 2);
-                const double by_turn = per_turn > 0
-                                           ? steep * kFullTurn * area / (std::abs(turn) * length * per_turn)
-                                           : kInfinity;
-                const double longest = scale * std::lerp(std::min(by_size, by_turn), by_size, second / first);
-                lost -= length * lost_by(turn, longest) / 2; // two facets share the side
-            }
+        const FaceBends bends = bends_of(model, face);
+        for (const auto& [a, b, turn, length, area] : bends.sides) {
+            if (kept.contains(a) && kept.contains(b)) continue;
+            const double by_size = steep * kLonger * size((model.at(a) + model.at(b)) / 2);
+            const double by_turn = per_turn > 0
+                                       ? steep * kFullTurn * area / (std::abs(turn) * length * per_turn)
+                                       : kInfinity;
+            const double longest = scale * std::lerp(std::min(by_size, by_turn), by_size, bends.second);
+            lost -= length * lost_by(turn, longest);
         }
     }
     return lost;

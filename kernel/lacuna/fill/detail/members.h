@@ -58,6 +58,11 @@ Volume sealed_whole(const Volume& volume, const RunContext& context);
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name);
 
+/// Open faces that replace a volume, or a piece of one, with its name and settings. Nothing is logged: the
+/// notes on these faces were logged for the volume.
+Volume open_anew(const Volume& volume, const topology::Model& model, RoleRequest request,
+                 const RunContext& context);
+
 /// Whether a volume must be swept in pieces, see `cut_into_pieces()`.
 bool has_pieces(const Volume& volume, const RunContext& context);
 /// The pieces of a volume: those of `closure::cut_into_pieces()` or, for class 0, the halves of a full turn.
