@@ -2,7 +2,7 @@
 #include <lacuna/closure/detail/bowl.h>
 
 #include <lacuna/closure/detail/pieces.h>
-#include <lacuna/closure/detail/unless_refused.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/cavities.h>
 
-#include <lacuna/closure/detail/unless_refused.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/topology/shared/hollows.h>
 
 #include <algorithm>

@@ -11,9 +11,9 @@
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/smooth_ends.h>
 #include <lacuna/closure/detail/stubs.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/shared/angle.h>
@@ -191,18 +191,19 @@ public:
     /// Seal with the first of the `wanted()` methods that succeeds, and check the result.
     Closed seal(const matching::Match& match)
     {
-        std::optional<NotClosed> first;
+        std::optional<Outcome<Closed>> first;
         for (const Way& way : wanted()) {
-            try {
-                Closed closed = seal_as(way, match);
-                add_ambiguity_notes(way, match, closed);
-                say_what_is_open(closed);
-                return closed;
-            } catch (const NotClosed& error) {
-                if (!first) first = error;
-            }
+            auto closed = attempt<NotClosed>([&] {
+                Closed sealed = seal_as(way, match);
+                add_ambiguity_notes(way, match, sealed);
+                say_what_is_open(sealed);
+                return sealed;
+            });
+            if (closed) return std::move(*closed);
+            if (!first) first = std::move(closed);
         }
-        throw options_.trial ? *first : NotClosed(with_what_helps(first->message(), match));
+        if (options_.trial) first->raise();
+        throw NotClosed(with_what_helps(*first->why, match));
     }
 
 private:

@@ -6,10 +6,10 @@
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>

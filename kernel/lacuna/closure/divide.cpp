@@ -4,11 +4,11 @@
 #include <lacuna/closure/detail/midpoint.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turning_heights.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/piece_ends.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/predicates.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/end_holes.h>
 
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/use_places.h>
 

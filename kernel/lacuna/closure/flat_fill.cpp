@@ -8,8 +8,8 @@
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/split_loop.h>
 #include <lacuna/closure/detail/touching_faces.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/full_turn.h>
 
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>

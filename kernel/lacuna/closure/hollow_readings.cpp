@@ -5,8 +5,8 @@
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/guesses.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 #include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>

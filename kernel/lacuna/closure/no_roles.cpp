@@ -5,13 +5,13 @@
 #include <lacuna/closure/detail/cut_planes.h>
 #include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/turns.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/readings.h>
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/list_text.h>

@@ -6,13 +6,13 @@
 #include <lacuna/closure/detail/divide.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/closure/shared/steps.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>

@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
@@ -319,12 +320,13 @@ std::vector<StepPiece> cut_each(std::vector<StepPiece> pieces, const geometry::P
             result.push_back(std::move(piece));
             continue;
         }
-        try {
-            std::ranges::move(cut(piece.volume), std::back_inserter(result));
-        } catch (const NotSweepable& error) {
-            if (error.code() != "closure.cut_misses") throw;
+        auto parts = attempt<NotSweepable>([&] { return cut(piece.volume); });
+        if (parts)
+            std::ranges::move(*parts, std::back_inserter(result));
+        else if (parts.why->code() == "closure.cut_misses")
             result.push_back(std::move(piece));
-        }
+        else
+            parts.raise();
     }
     return result;
 }

@@ -8,9 +8,9 @@
 #include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/detail/touching_faces.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/segment.h>
 #include <lacuna/topology/shared/face_parts.h>

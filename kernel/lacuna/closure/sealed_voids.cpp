@@ -6,7 +6,7 @@
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/moved_end.h>
-#include <lacuna/closure/detail/unless_refused.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/shared/face_parts.h>

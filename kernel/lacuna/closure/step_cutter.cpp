@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -211,16 +212,16 @@ private:
             outline.add_loop(rings[outer].flat, rings[outer].points);
             for (std::size_t i = 0; i < rings.size(); ++i)
                 if (parents[i] == outer) outline.add_loop(rings[i].flat, rings[i].points);
-            geometry::Triangulation made;
-            try {
-                made = geometry::triangulate(outline.flat, outline.loops,
+            const auto made = attempt<InvalidInput>([&] {
+                return geometry::triangulate(outline.flat, outline.loops,
                                              {.interior_points = before.kind != "plane"}, context_);
-            } catch (const InvalidInput& error) { // the error names loops, not faces
+            });
+            if (!made) { // its error names loops, not faces
                 throw NotSweepable(Message("closure.steps",
                                            "{} cannot be split along the projected outlines of the steps",
                                            entity_of(builder_, id))
                                        .remedy("cut the volume with cut{{ plane = … }}")
-                                       .attempt(error.message()));
+                                       .attempt(*made.why));
             }
             Face face = before;
             face.triangles.clear();
@@ -228,8 +229,8 @@ private:
             face.given_quads.clear();
             face.keeps_nodes = false;
             const auto first_made = static_cast<Index>(builder_.points.size());
-            VoidFilling filling = filling_of(builder_, outline, made, [&](std::size_t p) {
-                const std::optional<Hit> hit = above(geometry::from_plane(across_, made.points[p], lowest()),
+            VoidFilling filling = filling_of(builder_, outline, *made, [&](std::size_t p) {
+                const std::optional<Hit> hit = above(geometry::from_plane(across_, made->points[p], lowest()),
                                                      id);
                 if (!hit)
                     throw NotSweepable(Message("closure.steps",

@@ -6,12 +6,12 @@
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/step_cutter.h>
 #include <lacuna/closure/detail/turns.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
@@ -354,14 +354,9 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
     if (!risers.empty()) {
         result = cut_at_risers(volume, risers, context, 0);
     } else {
-        try {
-            result = hang_all(volume, context, 0);
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const Error&) {
-            result = cut_in_layers(volume, steps, context);
-            if (result.empty()) throw;
-        }
+        auto hung = attempt([&] { return hang_all(volume, context, 0); });
+        result = hung ? std::move(*hung) : cut_in_layers(volume, steps, context);
+        if (result.empty() && !hung) hung.raise();
     }
     std::ranges::stable_sort(result, {}, &StepPiece::level);
     return result;

@@ -3,7 +3,7 @@
 
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
-#include <lacuna/closure/detail/unless_refused.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/geometry/shared/segment.h>

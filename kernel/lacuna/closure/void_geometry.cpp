@@ -7,9 +7,9 @@
 #include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/harmonic.h>
@@ -241,14 +241,15 @@ VoidFilling fill_loops(const OpenVolume& volume, const std::vector<Loop>& loops,
                                                : std::nullopt;
     VoidFilling result;
     if (has_sides) {
-        try {
-            result = fill_transfinite(model, sides, follower, context);
-        } catch (const InvalidInput& error) {
+        auto blended = attempt<InvalidInput>(
+            [&] { return fill_transfinite(model, sides, follower, context); });
+        if (!blended) {
             throw NotClosed(Message("closure.face_folds",
                                     "{}{}, with {}, folds if it is blended between its sides", face.words,
                                     face.entity, entity_of(model, sides.front().front().edge))
-                                .attempt(error.message()));
+                                .attempt(*blended.why));
         }
+        result = std::move(*blended);
     } else if (auto patch = flat ? std::nullopt
                                  : fill_between_corners(model, loops, newell.plane.normal, told.has_value(),
                                                         context)) {

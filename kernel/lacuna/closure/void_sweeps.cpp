@@ -4,10 +4,10 @@
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/turns.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/steps.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/union_find.h>

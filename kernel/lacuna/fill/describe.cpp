@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/topology/shared/left_out.h>
@@ -72,14 +73,9 @@ std::string faces_in_words(const topology::OpenVolume& volume)
 std::string pieces_in_words(const Volume& volume, const RunContext& context)
 {
     if (volume.closure || !closure::has_pieces(volume.volume, context)) return "";
-    std::vector<closure::StepPiece> pieces;
-    try {
-        pieces = closure::cut_into_pieces(volume.volume, context);
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
-        return formatted("pieces: it is not cut: {}\n", error.what());
-    }
+    auto cut = attempt([&] { return closure::cut_into_pieces(volume.volume, context); });
+    if (!cut) return formatted("pieces: it is not cut: {}\n", cut.why->text());
+    const std::vector<closure::StepPiece>& pieces = *cut;
     if (pieces.size() < 2) return "";
     std::vector<sweep::AssemblyMember> members;
     for (const closure::StepPiece& piece : pieces) {

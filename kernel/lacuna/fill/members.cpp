@@ -5,6 +5,7 @@
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/describe.h>
@@ -84,11 +85,9 @@ struct Followed {
 
 Followed follow_walls(const topology::OpenVolume& volume, const RunContext& context)
 {
-    try {
-        return {surface::check_wall_edges(volume, context), std::nullopt};
-    } catch (const NotSweepable& error) {
-        return {.refused = error.message()};
-    }
+    auto stops = attempt<NotSweepable>([&] { return surface::check_wall_edges(volume, context); });
+    if (stops) return {*stops, std::nullopt};
+    return {.refused = std::move(stops.why)};
 }
 
 /// Why no sweep of a sealed volume can follow its walls; empty if one can.
@@ -144,16 +143,11 @@ template <class Do>
 bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& region, const Member& member,
                      const Do& what)
 {
-    try {
-        what();
-        return true;
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
-        if (member.options.fallback != sweep::Fallback::leave_out) throw;
-        left_out.push_back({region, error.message().about(region)});
-        return false;
-    }
+    const auto done = attempt(what);
+    if (done) return true;
+    if (member.options.fallback != sweep::Fallback::leave_out) done.raise();
+    left_out.push_back({region, done.why->about(region)});
+    return false;
 }
 
 sweep::AssemblyMember member_of(const KeptMesh& kept, const std::string& number)

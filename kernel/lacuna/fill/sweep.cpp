@@ -5,6 +5,7 @@
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/partition.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/progress.h>
@@ -197,21 +198,17 @@ double hex_share(const FilledParts& mesh)
 /// @param what   attempted
 /// @param notes  receives the notes, which are to be logged only if the result is used
 /// @param why    receives the error if there was none before; null: nobody asks
-template <class Attempt>
+template <class Action>
 auto attempted(std::string_view what, std::vector<std::string>& notes, const RunContext& context,
-               const Attempt& attempt, std::optional<Message>* why = nullptr) -> decltype(attempt(context))
+               const Action& action, std::optional<Message>* why = nullptr) -> decltype(action(context))
 {
     RunContext own = context;
     own.log = [&](std::string_view line) { notes.emplace_back(line); };
-    try {
-        return attempt(own);
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
-        log_line(context, formatted("{}: {}", what, error.message().text()));
-        if (why != nullptr && !*why) *why = error.message();
-        return std::nullopt;
-    }
+    auto outcome = attempt([&] { return action(own); });
+    if (outcome) return std::move(*outcome);
+    log_line(context, formatted("{}: {}", what, outcome.why->text()));
+    if (why != nullptr && !*why) *why = outcome.why;
+    return std::nullopt;
 }
 
 /// The least scaled Jacobian of the hexahedra of a mesh.

@@ -2,6 +2,7 @@
 #include <lacuna/healing/detail/coincident_faces.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
@@ -75,15 +76,14 @@ bool faces_coincide(const topology::Model& model, const topology::Face& a, const
         return faces_coincide(model, plain_a, plain_b, tolerance, context);
     }
     check_cancelled(context);
-    try {
+    const auto coincide = attempt<BackendError>([&] {
         const Samples of_a = samples_of(model, a, context);
         const Samples of_b = samples_of(model, b, context);
         const double reach = tolerance + 2 * (of_a.sagitta + of_b.sagitta);
         return lie_on(of_a, model, b, reach, tolerance, context) &&
                lie_on(of_b, model, a, reach, tolerance, context);
-    } catch (const BackendError&) {
-        return false; // a projection failed, so it is unknown whether the faces coincide
-    }
+    });
+    return coincide.value.value_or(false); // it is unknown if a projection failed
 }
 
 } // namespace lacuna::healing

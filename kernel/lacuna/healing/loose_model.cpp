@@ -2,6 +2,7 @@
 #include <lacuna/healing/detail/loose_model.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/split_edge.h>
@@ -248,11 +249,8 @@ void LooseModel::renew_parameters(const RunContext& context)
             }
         }
         if (corners.empty()) continue;
-        try {
-            face.surface->project(at, uv, context);
-        } catch (const BackendError&) {
+        if (!attempt<BackendError>([&] { face.surface->project(at, uv, context); }))
             continue; // keep the interpolated parameters
-        }
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const auto [t, k] = corners[i];
             // At a seam, the projection may return parameters of the other side of the seam. Such a change is

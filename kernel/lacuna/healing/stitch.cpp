@@ -6,6 +6,7 @@
 #include <lacuna/healing/shared/stitch.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/healing/detail/stitcher.h>
@@ -356,13 +357,13 @@ StitchReport stitch(topology::Model& model, double tolerance, const RunContext& 
     Stitcher stitcher(model, tolerance, context, share);
     StitchReport report = stitcher.run();
     if (!report.changed()) return report;
-    try {
-        model = stitcher.result();
-    } catch (const InvalidInput& error) {
+    auto stitched = attempt<InvalidInput>([&] { return stitcher.result(); });
+    if (!stitched) {
         StitchReport failed;
-        failed.notes.push_back(error.message().about("faces that meet could not be joined"));
+        failed.notes.push_back(stitched.why->about("faces that meet could not be joined"));
         return failed;
     }
+    model = std::move(*stitched);
     return report;
 }
 

@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/deck_builder.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/triangulate.h>
@@ -187,14 +188,12 @@ void DeckBuilder::add_face(std::span<const Index> corners, Index region, const C
     for (const Vec3& p : at) flat.push_back(geometry::to_plane(plane, p));
     std::vector<Index> loop(corners.size());
     std::iota(loop.begin(), loop.end(), 0);
-    try {
-        const auto cut = geometry::triangulate(flat, std::vector<std::vector<Index>>{loop},
-                                               {.interior_points = false});
-        for (const Triangle& t : cut.triangles)
-            add_triangle(corners[index(t[0])], corners[index(t[1])], corners[index(t[2])]);
-    } catch (const InvalidInput&) {
-        cursor.fail("the polygon of {} corners crosses itself", corners.size());
-    }
+    auto cut = attempt<InvalidInput>([&] {
+        return geometry::triangulate(flat, std::vector<std::vector<Index>>{loop}, {.interior_points = false});
+    });
+    if (!cut) cursor.fail("the polygon of {} corners crosses itself", corners.size());
+    for (const Triangle& t : cut->triangles)
+        add_triangle(corners[index(t[0])], corners[index(t[1])], corners[index(t[2])]);
 }
 
 void DeckBuilder::pass_over(const std::string& what, std::size_t count)

@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/deck_files.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/io/detail/input_file.h>
 
 #include <algorithm>
@@ -41,12 +42,9 @@ Cursor& DeckFiles::include(const std::string& name, const DeckPlace& place)
     for (std::uint64_t file = place.file; file > 0; file = files_[file - 1]->from)
         is_open = is_open || files_[file - 1]->cursor.path() == wanted;
     if (is_open) place.fail("INCLUDE: {} includes itself, directly or through other files", shown(name));
-    try {
-        files_.push_back(std::make_shared<File>(wanted.string(), place.file));
-    } catch (const InvalidInput& trouble) {
-        place.fail(Message(kUnreadable, "INCLUDE: {}", trouble.what()).attempt(trouble.message()));
-    }
-    return files_.back()->cursor;
+    auto opened = attempt<InvalidInput>([&] { return std::make_shared<File>(wanted.string(), place.file); });
+    if (!opened) place.fail(Message(kUnreadable, "INCLUDE: {}", opened.why->text()).attempt(*opened.why));
+    return files_.emplace_back(std::move(*opened))->cursor;
 }
 
 DeckPlace DeckFiles::place_of(std::uint64_t number) const

@@ -2,6 +2,7 @@
 #include <lacuna/matching/shared/guides.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/parallel.h>
@@ -213,11 +214,8 @@ void put_on_surfaces(const Model& model, const std::vector<FaceId>& part, std::v
         }
     }
     for (auto& [face, points] : moved) {
-        try {
-            model[face].surface->project(points.to, points.uv, context);
-        } catch (const BackendError&) {
+        if (!attempt<BackendError>([&] { model[face].surface->project(points.to, points.uv, context); }))
             continue;
-        }
         for (std::size_t i = 0; i < points.to.size(); ++i)
             if ((points.to[i] - *points.from[i]).norm() <= points.reach[i]) *points.from[i] = points.to[i];
     }

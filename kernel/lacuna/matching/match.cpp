@@ -2,6 +2,7 @@
 #include <lacuna/matching/match.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/list_text.h>
@@ -347,14 +348,7 @@ std::string numbers(const std::vector<int>& list)
 bool can_be_aligned(const OpenVolume& volume, MatchOptions options, const RunContext& context)
 {
     options.method = Method::aligned;
-    try {
-        match(volume, options, context);
-        return true;
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error&) {
-        return false;
-    }
+    return attempt([&] { return match(volume, options, context); }).value.has_value();
 }
 
 } // namespace
@@ -386,12 +380,10 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     }
     Problem problem = problem_of(volume, options, result, context);
     if (options.method == Method::nearest) {
-        try {
-            return match_nearest(problem, std::move(result));
-        } catch (const NotClosed& error) {
-            if (!can_be_aligned(volume, options, context)) throw;
-            throw NotClosed(error.message().remedy("try method = \"aligned\", which matches them"));
-        }
+        auto matched = attempt<NotClosed>([&] { return match_nearest(problem, std::move(result)); });
+        if (matched) return std::move(*matched);
+        if (!can_be_aligned(volume, options, context)) matched.raise();
+        throw NotClosed(matched.why->remedy("try method = \"aligned\", which matches them"));
     }
 
     const std::vector<Arrangement> pairings = arrange(problem);

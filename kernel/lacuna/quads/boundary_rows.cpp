@@ -2,6 +2,7 @@
 #include <lacuna/quads/shared/boundary_rows.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/pave_gaps.h>
 #include <lacuna/quads/shared/measure_plane.h>
@@ -401,11 +402,9 @@ RowsFilling fill_with_rows(const PlanarRegion& region, const BoundaryRows& rows,
     RowLayer layer(region, rows);
     if (!layer.lay()) return {{}, layer.finding()};
     const auto [inside, own] = layer.core(region.size);
-    try {
-        check(inside);
-    } catch (const InvalidInput&) { // rows that meet the opposite boundary leave no region
+    if (!attempt<InvalidInput>(
+            [&] { check(inside); })) // rows that meet the opposite boundary leave no region
         return {{}, layer.least_room()};
-    }
     const PlanarQuads filling = core(inside, context);
     PartialMesh& laid = layer.partial();
     RowsFilling result;

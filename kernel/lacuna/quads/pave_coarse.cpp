@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/pave_coarse.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/coarse_region.h>
@@ -79,14 +80,13 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
     };
     const auto divided = [&](std::span<const RegionSide> some,
                              const PlanarQuadMesher& mesher) -> std::optional<PlanarQuads> {
-        try {
-            PlanarQuads mesh = fill_divided_region(region, some, mesher, context);
-            const auto triangles = std::ranges::find_if(mesh.quads, mesh::is_triangle); // the last cell
-            if (least_scaled_jacobian(mesh.points, {mesh.quads.begin(), triangles}) > kPoorQuad) return mesh;
-        } catch (const NotSweepable&) {
-            // the region is filled in another way below
-        }
-        return std::nullopt;
+        auto filled = attempt<NotSweepable>(
+            [&] { return fill_divided_region(region, some, mesher, context); });
+        if (!filled) return std::nullopt;
+        const auto triangles = std::ranges::find_if(filled->quads, mesh::is_triangle); // the last cell
+        const std::span whole(filled->quads.begin(), triangles);
+        if (least_scaled_jacobian(filled->points, whole) <= kPoorQuad) return std::nullopt;
+        return std::move(filled.value);
     };
     if (sides) {
         if (auto mesh = divided(*sides, in_four)) return std::move(*mesh);
@@ -123,21 +123,14 @@ std::optional<Paved> fill_and_cut(const PlanarRegion& region, const RunContext& 
 std::optional<Paved> pave_in_four(const PlanarRegion& region, const SizeField& size,
                                   const RunContext& context)
 {
-    std::optional<Paved> found;
-    try {
-        found = fill_and_cut(region, context);
-    } catch (const InvalidInput&) {
-        return std::nullopt; // the loops touch if nodes are left out
-    } catch (const NotSweepable&) {
-        return std::nullopt;
-    }
-    if (!found) return std::nullopt;
-    Paved& made = *found;
+    auto found = unless_refused([&] { return fill_and_cut(region, context); });
+    if (!found || !*found) return std::nullopt; // for instance, the loops touch if nodes are left out
+    Paved& made = **found;
     made.report.used += ", each quad cut in four";
     smooth_plane(made.mesh.points, made.mesh.quads, region.points.size(),
                  {.size = size, .good_enough = kGoodQuad}, context);
     correct_row_heights(made.mesh, region, size);
-    return found;
+    return std::move(*found);
 }
 
 } // namespace lacuna::quads::paving

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/triangle_quads.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/mesh/quad_mesh.h>
@@ -77,14 +78,10 @@ PlanarQuads quads_of_triangles(const PlanarRegion& region)
 {
     // Two equilateral triangles have less area than a square on their side. Splitting then halves most edges.
     const double kBySize = 2 * std::sqrt(2 / std::sqrt(3.0));
-    MixedMesh mesh;
-    try {
-        mesh = triangles_over(region, kBySize);
-    } catch (const InvalidInput&) {
-        return {}; // loops that touch cannot be triangulated
-    }
-    mesh.cells = merged_pairs(mesh);
-    mesh = split_cells(mesh);
+    auto triangles = attempt<InvalidInput>([&] { return triangles_over(region, kBySize); });
+    if (!triangles) return {}; // loops that touch cannot be triangulated
+    triangles->cells = merged_pairs(*triangles);
+    MixedMesh mesh = split_cells(*triangles);
 
     PlanarQuads result{region.points, {}};
     add_filling(result, region_within(region.points, region.loops).own,

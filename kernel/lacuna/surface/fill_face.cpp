@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/fill_face.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/flatten.h>
@@ -79,11 +80,12 @@ Message not_flat(const Model& model, FaceId face, const char* why)
 
 /// The facets of a face, flattened.
 geometry::Flattened laid_flat(const Model& model, FaceId face, const FineFacets& fine)
-try {
-    return geometry::flatten(fine.points, fine.triangles, {.settled = kVisible});
-} catch (const InvalidInput& error) { // the error names facets but not the face
-    throw InvalidInput(
-        not_flat(model, face, "are in several parts, closed or have a handle").attempt(error.message()));
+{
+    auto flat = attempt<InvalidInput>(
+        [&] { return geometry::flatten(fine.points, fine.triangles, {.settled = kVisible}); });
+    if (flat) return std::move(*flat);
+    throw InvalidInput( // the error of `flatten()` names facets but not the face
+        not_flat(model, face, "are in several parts, closed or have a handle").attempt(*flat.why));
 }
 
 /// A curved face and its flat image.

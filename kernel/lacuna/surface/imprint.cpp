@@ -6,6 +6,7 @@
 #include <lacuna/surface/shared/imprint.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/triangulate.h>
@@ -442,10 +443,8 @@ private:
         const double side = facet_side(of);
         options.size = [side](const Vec2&) { return side; };
         options.grading = 1;
-        geometry::Triangulation made;
-        try {
-            made = geometry::triangulate(places, loops, options);
-        } catch (const InvalidInput& error) {
+        auto outcome = attempt<InvalidInput>([&] { return geometry::triangulate(places, loops, options); });
+        if (!outcome) {
             const Border& border = borders_[region.loops.front().front().chain];
             const EdgeId edge = border.image ? border.image->target : inner_.front();
             throw NotSweepable(
@@ -454,8 +453,9 @@ private:
                         "that its imprint cuts off on {} has no valid outline",
                         entity_of(builder(), edge), entity_of(base_.model, of))
                     .remedy("choose other faces as source and target")
-                    .attempt(error.message()));
+                    .attempt(*outcome.why));
         }
+        const geometry::Triangulation& made = *outcome;
         for (std::size_t p = places.size(); p < made.points.size(); ++p)
             points.push_back(add_point(of, made.points[p]));
         std::vector<Triangle> triangles;

@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/imprint_rims.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/matching/shared/corners.h>
 #include <lacuna/surface/detail/imprint_rules.h>
@@ -53,17 +54,14 @@ EdgeId inner_at(const Model& model, std::span<const EdgeId> inner, VertexId vert
 
 EdgeSplit split_at(Model& model, EdgeId edge, double fraction, EdgeId because)
 {
-    try {
-        return split_edge(model, edge, fraction);
-    } catch (const InvalidInput& error) {
-        throw NotSweepable(
-            Message("surface.not_imprinted",
-                    "{} lies inside one end and cannot be imprinted on the other: {} cannot be "
-                    "split there",
-                    entity_of(model, because), entity_of(model, edge))
-                .remedy("choose other faces as source and target")
-                .attempt(error.message()));
-    }
+    auto split = attempt<InvalidInput>([&] { return split_edge(model, edge, fraction); });
+    if (split) return std::move(*split);
+    throw NotSweepable(Message("surface.not_imprinted",
+                               "{} lies inside one end and cannot be imprinted on the other: {} cannot be "
+                               "split there",
+                               entity_of(model, because), entity_of(model, edge))
+                           .remedy("choose other faces as source and target")
+                           .attempt(*split.why));
 }
 
 std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> links,

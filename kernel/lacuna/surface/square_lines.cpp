@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/square_lines.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/sparse_factor.h>
@@ -122,12 +123,9 @@ private:
         for (const LinkingSurface& link : links_) nodes.push_back(seeds_.nodes(link));
         std::vector<double> heights;
         for (std::size_t k = 0; k < kSections; ++k) heights.push_back(height_of(k));
-        std::vector<WallMesh> walls;
-        try {
-            walls = mesh_walls(volume_, links_, nodes, heights, {}, context_, false);
-        } catch (const NotSweepable&) {
-            return false; // there are more edges to follow than layers
-        }
+        auto walls = attempt<NotSweepable>(
+            [&] { return mesh_walls(volume_, links_, nodes, heights, {}, context_, false); });
+        if (!walls) return false; // there are more edges to follow than layers
         for (std::size_t b = 0; b < links_.size(); ++b) {
             std::size_t next = 0;
             const std::size_t round = nodes[b].source_at.size();
@@ -140,7 +138,7 @@ private:
                     std::vector<Vec3>& points = lines_[first->second + piece].points[k];
                     points.clear();
                     for (std::size_t i = 0; i <= sides; ++i)
-                        points.push_back(walls[b].points[k * round + (next + i) % round]);
+                        points.push_back((*walls)[b].points[k * round + (next + i) % round]);
                     if (use.reversed) std::ranges::reverse(points);
                 }
                 next += sides;

@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/wall_breaks.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/wall_net.h>
@@ -187,14 +188,11 @@ WallBreaks set_wall_breaks(const OpenVolume& volume, const SizeField& size, std:
         const bool has_given = std::ranges::any_of(link.walls, [&](FaceId wall) {
             return volume.model[wall].keeps_nodes && has_quads_all_over(volume.model[wall]);
         });
-        try {
-            layers = std::max(layers, Breaker(volume, size, link, true).run());
-        } catch (const NotSweepable& error) {
-            // If given nodes determine the columns, columns cannot follow edges between void faces. These
-            // edges are then ignored.
-            if (!has_given || error.code() != "surface.wall_edge") throw;
-            layers = std::max(layers, Breaker(volume, size, link, false).run());
-        }
+        auto followed = attempt<NotSweepable>([&] { return Breaker(volume, size, link, true).run(); });
+        // If given nodes determine the columns, columns cannot follow edges between void faces. These edges
+        // are then ignored.
+        if (!followed && !(has_given && followed.why->code() == "surface.wall_edge")) followed.raise();
+        layers = std::max(layers, followed ? *followed : Breaker(volume, size, link, false).run());
     }
     return {std::move(links), layers};
 }

@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/walls.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -79,11 +80,9 @@ public:
     WallMesh run()
     {
         if (!begun_.given.has_sides()) return mesh(true);
-        try {
-            return mesh(true);
-        } catch (const NotSweepable& error) {
-            if (error.code() != "surface.wall_edge") throw;
-        }
+        auto following = attempt<NotSweepable>([&] { return mesh(true); });
+        if (following) return std::move(*following);
+        if (following.why->code() != "surface.wall_edge") following.raise();
         // Columns of given nodes cannot follow an edge between void faces, so such edges are ignored.
         map_.reset();
         net_ = {};

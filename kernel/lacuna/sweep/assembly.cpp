@@ -2,6 +2,7 @@
 #include <lacuna/sweep/assembly.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>
@@ -51,10 +52,10 @@ constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surfa
 
 /// The reason for a member's failure. A remedy that loads the member without its mesh is replaced if the
 /// member has no given mesh: the quads that it keeps are then those of neighbours meshed before it.
-Message why_failed(const AssemblyMember& member, const Error& error)
+Message why_failed(const AssemblyMember& member, const Message& error)
 {
-    Message why = error.message().about(member.region);
-    if (came_with_mesh(member) || std::ranges::find(kGivenMesh, error.code()) == kGivenMesh.end()) return why;
+    Message why = error.about(member.region);
+    if (came_with_mesh(member) || std::ranges::find(kGivenMesh, why.code()) == kGivenMesh.end()) return why;
     return std::move(why).remedy(
         "these quads and nodes come from its neighbours: give all of them the same 'size' "
         "and 'layers'");
@@ -209,18 +210,15 @@ private:
     bool carry_lines()
     {
         copy_volumes();
-        std::vector<std::string> lines;
-        try {
-            const std::vector<std::size_t> before = faces_of_fixed();
-            lines = sweep::carry_lines(members_, imprinted_, context_);
-            if (faces_of_fixed() != before) return false; // given quads are not split
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const Error& error) { // report the first error: it is more informative
-            log_line(context_, error.message().text());
+        const std::vector<std::size_t> before = faces_of_fixed();
+        const auto lines = attempt([&] { return sweep::carry_lines(members_, imprinted_, context_); });
+        if (!lines) { // report the first error: it is more informative
+            log_line(context_, lines.why->text());
+            return false;
         }
-        notes_.insert(notes_.end(), lines.begin(), lines.end());
-        return !lines.empty();
+        if (faces_of_fixed() != before) return false; // given quads are not split
+        notes_.insert(notes_.end(), lines->begin(), lines->end());
+        return !lines->empty();
     }
 
     [[nodiscard]] std::vector<std::size_t> faces_of_fixed() const
@@ -314,17 +312,15 @@ private:
             std::vector<Neighbour> handed = images_for(m, done);
             handed.insert(handed.end(), neighbours.begin(), neighbours.end());
             done[m] = 1;
-            try {
+            const auto made = attempt([&] {
                 make(m, handed, part);
                 check_kept(m, neighbours);
                 if (members_[m].options.order > 1) keep_middles(m);
-            } catch (const Cancelled&) {
-                throw;
-            } catch (const Error& error) {
-                MemberFailed failed(m, why_failed(members_[m], error));
-                if (!handed.empty()) return failed;
-                throw failed;
-            }
+            });
+            if (made) continue;
+            MemberFailed failed(m, why_failed(members_[m], *made.why));
+            if (!handed.empty()) return failed;
+            throw failed;
         }
         return std::nullopt;
     }

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/edge_counts.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/angle.h>
@@ -228,13 +229,12 @@ void EdgeCounts::find_demands(std::size_t m, std::span<const surface::LinkingSur
 {
     const AssemblyMember& member = edges_.members()[m];
     if (member.options.intervals.empty()) return;
-    try {
-        demands_[m] = surface::find_intervals(*member.volume, links, member.options.intervals);
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
-        log_line(context_, error.message().about(member.region).text());
-    }
+    auto demands = attempt(
+        [&] { return surface::find_intervals(*member.volume, links, member.options.intervals); });
+    if (demands)
+        demands_[m] = std::move(*demands);
+    else
+        log_line(context_, demands.why->about(member.region).text());
 }
 
 void EdgeCounts::plan_sides(std::size_t m, std::span<const surface::LinkingSurface> links)

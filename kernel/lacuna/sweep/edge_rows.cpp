@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/edge_rows.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/plan_heights.h>
@@ -62,20 +63,17 @@ void add_rows_of_ends(const OpenVolume& volume, const surface::LayerTables& tabl
 
 RowsOfEdges edge_rows(const AssemblyMember& member)
 {
-    RowsOfEdges rows;
-    if (member.fixed != nullptr || member.options.boundary_layers.empty()) return rows;
-    try {
+    if (member.fixed != nullptr || member.options.boundary_layers.empty()) return {};
+    auto found = unless_refused([&] {
+        RowsOfEdges rows;
         const surface::LayerTables tables = surface::layer_tables(*member.volume,
                                                                   member.options.boundary_layers);
         add_rows_of_walls(*member.volume, tables, rows);
         add_rows_of_walls(turned_round(*member.volume), tables, rows);
         add_rows_of_ends(*member.volume, tables, rows);
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error&) {
-        return {}; // the member's own sweep reports the error
-    }
-    return rows;
+        return rows;
+    });
+    return found ? std::move(*found) : RowsOfEdges{}; // the member's own sweep reports the error
 }
 
 } // namespace lacuna::sweep

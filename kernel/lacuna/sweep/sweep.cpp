@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/progress.h>
@@ -128,7 +129,7 @@ public:
             if (best_ && (plan_->keeps_end || plan_->wedges != plan.wedges ||
                           best_->min_scaled_jacobian >= plan.below))
                 continue;
-            if (!is_like_each(plan)) attempt(plan);
+            if (!is_like_each(plan)) mesh(plan);
         }
         if (!best_) throw NotSweepable(std::move(*refusal_));
         if (plan_->wedges && !options_.wedges)
@@ -152,23 +153,25 @@ private:
                                   &surface::LinkingSurface::branch, &surface::LinkingSurface::branch);
     }
 
-    void attempt(const Plan& plan)
+    void mesh(const Plan& plan)
     {
         const std::string words = in_words(plan, volume_);
         --left_[plan.wedges];
-        try {
-            Swept swept = mesh_candidate(volume_, plan, options_, links_, context_);
-            tried_.push_back(formatted("{}: least scaled Jacobian {:.2g}", words, swept.min_scaled_jacobian));
-            if (best_ && best_->min_scaled_jacobian >= swept.min_scaled_jacobian) return;
-            best_ = std::move(swept);
+        auto swept = attempt<NotSweepable>(
+            [&] { return mesh_candidate(volume_, plan, options_, links_, context_); });
+        if (swept) {
+            const double least = swept->min_scaled_jacobian;
+            tried_.push_back(formatted("{}: least scaled Jacobian {:.2g}", words, least));
+            if (best_ && best_->min_scaled_jacobian >= least) return;
+            best_ = std::move(*swept);
             plan_ = &plan;
-        } catch (const NotSweepable& error) {
-            const Message why = error.message().about(words);
+        } else {
+            const Message why = swept.why->about(words);
             tried_.push_back(why.text());
             // No plan without wedges can keep the given triangles.
-            const bool own = error.code() == kOwnTriangles;
+            const bool own = why.code() == kOwnTriangles;
             if (own) left_[plan.wedges] = 0;
-            refusal_ = refusal_ && !own ? refusal_->attempt(why) : error.message();
+            refusal_ = refusal_ && !own ? refusal_->attempt(why) : *swept.why;
         }
         log_line(context_, tried_.back());
     }

@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/hollows.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -221,11 +222,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
 {
     const std::vector<FaceId> outer = outer_faces(given);
     Model model = only(given, outer);
-    try {
-        orient_consistently(model);
-    } catch (const InvalidInput&) {
-        return {};
-    }
+    if (!attempt<InvalidInput>([&] { orient_consistently(model); })) return {};
     const std::vector<std::vector<FaceId>> shells = closed_shells(model);
     const std::vector<std::vector<FaceId>> inner = turn_inner_shells(model, shells, context);
     const std::vector<double> fold = folds_across(model, context);
