@@ -150,11 +150,12 @@ public:
     /// @return  the new model.
     Model apply(FaceId replaced)
     {
-        for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-            if (FaceId(f) == replaced) continue;
-            Face& face = model_.faces[f];
+        std::vector<FaceId> collapsed; // faces that lost facets
+        for (const FaceId f : all_faces(model_)) {
+            if (f == replaced) continue;
+            Face& face = model_[f];
             if (face.given_quads.empty() && !sides_.empty()) cut_at_sides(model_.points, face, sides_);
-            move(face);
+            if (move(face)) collapsed.push_back(f);
         }
         for (const Chain& chain : chains_) {
             Edge& edge = model_[chain.edge];
@@ -169,6 +170,7 @@ public:
         }
         for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
         for (std::size_t e = 0; e < model_.edges.size(); ++e) drop_folded(EdgeId(e));
+        for (const FaceId f : collapsed) drop_bubbles(model_[f]);
         // Drop points that are no longer used, and removed seams.
         ModelBuilder whole(extract(model_, all_faces(model_)));
         whole.notes = given_.notes;
@@ -263,7 +265,8 @@ private:
         return shifts;
     }
 
-    void move(Face& face) const
+    /// @return  whether facets were erased, because their corners became one
+    bool move(Face& face) const
     {
         std::unordered_map<Index, Vec2> shifts;
         if (!face.uv.empty()) shifts = shifts_of(face);
@@ -275,10 +278,10 @@ private:
                 corner = moved(corner);
             }
         }
-        if (erase_facets(face, [&](std::size_t t) { return repeats(face.triangles[t]); })) drop_bubbles(face);
         for (Quad& quad : face.given_quads) {
             for (Index& n : quad) n = moved(n);
         }
+        return erase_facets(face, [&](std::size_t t) { return repeats(face.triangles[t]); });
     }
 
     /// Remove bubbles: facets between two sides that became one, because their points became one. A bubble
