@@ -329,10 +329,10 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
     for (const Vec3& axis : axes) {
         check_cancelled(context);
         set_ends_along(away, axis);
-        auto pieces = unless_refused([&] { return cut_steps(away, context); });
+        auto pieces = unless_refused([&] { return cut_into_pieces(away, context); });
         if (pieces && pieces->size() > 1 && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
         if (!make_ledges_walls(away, axis)) continue;
-        pieces = unless_refused([&] { return cut_steps(away, context); });
+        pieces = unless_refused([&] { return cut_into_pieces(away, context); });
         if (pieces && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
     }
     return {};
