@@ -294,6 +294,19 @@ BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]]):format(
   end
 end
 
+-- Blind branches with a round bottom.
+for _, radius in ipairs { 15, 24 } do
+  local file = params.scratch .. "/blind.geo"
+  check.write(file, ([[SetFactory("OpenCASCADE");
+Cylinder(1) = {-100, 0, 0, 200, 0, 0, 30}; Cylinder(2) = {0, 0, 0, 0, 0, 60, %g}; Sphere(3) = {0, 0, 60, %g};
+BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2:3}; Delete; };]]):format(radius, radius))
+  local mesh = lacuna.load(file):open_volume():sweep { size = 6 }
+  local quality = mesh:quality()
+  check.that(quality.certified and mesh.tets == 0 and quality.min_scaled_jacobian > 0.2,
+    ("blind branch of radius %g: %.3f"):format(radius, quality.min_scaled_jacobian))
+  check.near(quality.volume, mesh.fidelity.sealed_volume, 0.02 * quality.volume)
+end
+
 -- Chambers with ports to several sides whose outer ends are missing: boxes, vessels with a ledge, and balls.
 local chambers = {
   box = "Box(1) = {-50, -40, -30, 100, 80, 60};",
@@ -303,6 +316,10 @@ local chambers = {
   drilled = "Cylinder(98) = {0, 0, -40, 0, 0, 80, 30}; Cylinder(97) = {0, 0, -80, 0, 0, 40, 16};\n" ..
     "Cone(96) = {0, 0, -80, 0, 0, -9.2, 16, 0};\n" ..
     "BooleanUnion(1) = { Volume{98}; Delete; }{ Volume{96:97}; Delete; };",
+  -- a globe valve: a lower chamber with a pipe, a seat, an upper chamber
+  valve = "Cylinder(98) = {0, 0, -56, 0, 0, 30, 35}; Cylinder(97) = {0, 0, -26, 0, 0, 6, 18};\n" ..
+    "Cylinder(96) = {0, 0, -20, 0, 0, 40, 35}; Cylinder(95) = {0, 0, -41, -100, 0, 0, 12};\n" ..
+    "BooleanUnion(1) = { Volume{98}; Delete; }{ Volume{95:97}; Delete; };",
 }
 local ports = {
   x = { 100, 0, 0, 15 }, w = { -100, 0, 0, 15 }, y = { 0, 90, 0, 12 }, v = { 0, -90, 0, 10 },
@@ -310,7 +327,7 @@ local ports = {
 }
 for _, member in ipairs { { "box", "xz" }, { "box", "xyz" }, { "box", "xwz" }, { "box", "xwyvz" },
   { "vessel", "xz" }, { "vessel", "xy" }, { "disc", "xz" }, { "disc", "xwz" }, { "ball", "xwz" },
-  { "ball", "xwyz" }, { "drilled", "xz" } } do
+  { "ball", "xwyz" }, { "drilled", "xz" }, { "valve", "xz" } } do
   local lines, open_at = { 'SetFactory("OpenCASCADE");', chambers[member[1]] }, {}
   for port in member[2]:gmatch "." do
     local x, y, z, radius = table.unpack(ports[port])

@@ -24,10 +24,10 @@ namespace {
 /// value, surfaces that hardly rise count as walls; with a higher one, shallow bowls have no walls.
 constexpr double kLeastLean = 0.2;
 
-/// Coplanar faces with the same normal.
+/// Coplanar faces with the same normal, or the only end of a volume.
 struct Mouth {
     std::vector<FaceId> faces;
-    geometry::Plane plane;
+    geometry::Plane plane; ///< no point of the mouth is further out
     double area = 0;
 };
 
@@ -61,6 +61,23 @@ std::vector<Mouth> mouths(const Model& model)
     std::ranges::stable_sort(found, std::greater<>(), &Mouth::area);
     if (found.size() > kMostTrials) found.resize(kMostTrials);
     return found;
+}
+
+/// The only end of a volume, such as the bent mouth of a branch; empty if it has both or none.
+std::optional<Mouth> only_end(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<FaceId> faces = volume.faces(Role::source);
+    std::vector<FaceId> others = volume.faces(Role::target);
+    if (faces.empty()) std::swap(faces, others);
+    if (faces.empty() || !others.empty()) return std::nullopt;
+    Mouth mouth{faces, geometry::plane_across(Vec3::Zero(), area_vector_of(model, faces))};
+    double out = -kInfinity;
+    for (const FaceId face : faces)
+        for (const Index p : corners_of(model[face]))
+            out = std::max(out, geometry::height(mouth.plane, model.at(p)));
+    mouth.plane.origin = out * mouth.plane.normal;
+    return mouth;
 }
 
 bool has(const std::vector<FaceId>& faces, FaceId face)
@@ -125,6 +142,10 @@ std::optional<Bowl> part_at(const OpenVolume& sealed, const Mouth& mouth, const 
                                                          sealed.model.tolerance);
     const auto open = [](const SectionWalk& walk) { return !walk.closed; };
     if (walks.empty() || std::ranges::any_of(walks, open)) return std::nullopt;
+    // The plane must pass below a bent mouth.
+    for (const FaceId face : mouth.faces)
+        for (const Index p : corners_of(sealed.model[face]))
+            if (geometry::height(plane, sealed.model.at(p)) <= sealed.model.tolerance) return std::nullopt;
     bowl.volume = sealed;
     bowl.parent = imprint(bowl.volume, walks, plane, context).parent;
     const Model& model = bowl.volume.model;
@@ -154,7 +175,8 @@ std::optional<Bowl> part_at(const OpenVolume& sealed, const Mouth& mouth, const 
 
 std::optional<Bowl> part_bowl(const OpenVolume& sealed, const RunContext& context)
 {
-    for (const Mouth& mouth : mouths(sealed.model)) {
+    const auto end = only_end(sealed);
+    for (const Mouth& mouth : end ? std::vector{*end} : mouths(sealed.model)) {
         check_cancelled(context);
         // part_at() throws if the plane would cross given quads of a face.
         auto bowl = unless_refused([&] { return part_at(sealed, mouth, context); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/branches.h>
 
+#include <lacuna/closure/detail/bowl.h>
 #include <lacuna/closure/detail/branch_mouths.h>
 #include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/outline.h>
@@ -624,6 +625,10 @@ std::vector<StepPiece> cut_into_pieces(const OpenVolume& volume, const RunContex
     // An end that a branch's cut made is a wall of an arm that has steps: it already had ends.
     if (result.size() > 1 && !std::ranges::all_of(result, has_ends, &StepPiece::volume))
         result = read_ends(std::move(result), context).pieces;
+    for (StepPiece& piece : result) { // a branch may have a round bottom
+        if (has_ends(piece.volume) || !free_edges(piece.volume).empty()) continue;
+        if (auto bowl = part_bowl(piece.volume, context)) piece.volume = std::move(bowl->volume);
+    }
     std::ranges::stable_sort(result, {}, &StepPiece::level);
     return result;
 }

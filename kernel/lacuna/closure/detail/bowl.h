@@ -20,11 +20,11 @@ struct Bowl {
 /// Separate the bottom of a hollow from its walls if they blend smoothly, as in a hemisphere, a bore with a
 /// round end or a pocket with a rounded floor.
 ///
-/// The mouth is a flat face; all other faces lie on one side of its plane. The cutting plane is parallel to
-/// the mouth, at the lowest height where the inclination of the skin to the mouth reaches half of its largest
+/// The mouth is the only end of the volume. If it has none or both, the mouth is a flat face, and all other
+/// faces lie on one side of its plane. The cutting plane is perpendicular to the mean normal of the mouth, at the lowest height where the inclination of the skin to the mouth reaches half of its largest
 /// value. Quads of the bottom and of the walls are then about equally inclined to the cutting plane. The
 /// plane splits the faces that it crosses.
-/// @param sealed  watertight and oriented; its roles are ignored.
+/// @param sealed  watertight and oriented
 /// @return  empty in any of these cases:
 /// - no face is such a mouth;
 /// - the inclination is the same everywhere, as on a cone;
