@@ -2,6 +2,7 @@
 #include <lacuna/closure/shared/partition.h>
 
 #include <lacuna/closure/close.h>
+#include <lacuna/closure/detail/bowl.h>
 #include <lacuna/closure/detail/cut_planes.h>
 #include <lacuna/closure/detail/divide.h>
 #include <lacuna/closure/detail/pieces.h>
@@ -313,9 +314,9 @@ bool make_ledges_walls(OpenVolume& volume, const Vec3& axis)
     return !ledges.empty();
 }
 
-/// Cut a volume at the steps of its ends along an axis (`set_ends_along()`), such as foam around a tilted
-/// product. If that fails, ledges become walls, such as the underside of a bottle's lip. Empty if no axis
-/// gives pieces that can be swept.
+/// Cut a volume at its branches and at the steps of its ends along an axis (`set_ends_along()`), such as foam
+/// around a tilted product. If that fails, ledges become walls, such as the underside of a bottle's lip. A
+/// volume with a round bottom is cut at its branches. Empty if no pieces can be swept.
 std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
                                     const RunContext& context)
 {
@@ -334,6 +335,11 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
         if (!make_ledges_walls(away, axis)) continue;
         pieces = unless_refused([&] { return cut_into_pieces(away, context); });
         if (pieces && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
+    }
+    std::ranges::fill(away.role, Role::wall);
+    if (const auto bowl = part_bowl(away, context)) {
+        auto pieces = unless_refused([&] { return cut_into_pieces(bowl->volume, context); });
+        if (pieces && pieces->size() > 1 && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
     }
     return {};
 }
