@@ -313,6 +313,7 @@ local chambers = {
   vessel = "Cylinder(1) = {0, 0, -50, 0, 0, 100, 40};",
   disc = "Cylinder(1) = {0, 0, -20, 0, 0, 40, 35};",
   ball = "Sphere(1) = {0, 0, 0, 45};",
+  rounded = "Box(98) = {-50, -40, -30, 100, 80, 60}; Fillet{98}{1:12}{10}",
   drilled = "Cylinder(98) = {0, 0, -40, 0, 0, 80, 30}; Cylinder(97) = {0, 0, -80, 0, 0, 40, 16};\n" ..
     "Cone(96) = {0, 0, -80, 0, 0, -9.2, 16, 0};\n" ..
     "BooleanUnion(1) = { Volume{98}; Delete; }{ Volume{96:97}; Delete; };",
@@ -327,7 +328,8 @@ local ports = {
 }
 for _, member in ipairs { { "box", "xz" }, { "box", "xyz" }, { "box", "xwz" }, { "box", "xwyvz" },
   { "vessel", "xz" }, { "vessel", "xy" }, { "disc", "xz" }, { "disc", "xwz" }, { "ball", "xwz" },
-  { "ball", "xwyz" }, { "drilled", "xz" }, { "valve", "xz" } } do
+  { "ball", "xwyz" }, { "drilled", "xz" }, { "valve", "xz" },
+  { "rounded", "xz" } } do
   local lines, open_at = { 'SetFactory("OpenCASCADE");', chambers[member[1]] }, {}
   for port in member[2]:gmatch "." do
     local x, y, z, radius = table.unpack(ports[port])

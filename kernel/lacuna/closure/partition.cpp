@@ -270,6 +270,19 @@ void set_ends_along(OpenVolume& volume, const Vec3& axis)
     }
 }
 
+/// Divide the rounds at the rims of the ends of a volume (`split_round_rims()`).
+/// @return  whether there are any, and the volume can be swept without them; if not, it is unchanged
+bool divide_rounds(OpenVolume& volume, const CanSweep& can_sweep, const RunContext& context)
+{
+    OpenVolume divided = volume;
+    split_round_rims(divided, RoundsOf::ends_and_walls, context);
+    if (divided.model.faces.size() == volume.model.faces.size() || has_steps(divided, context) ||
+        !can_sweep(divided))
+        return false;
+    volume = std::move(divided);
+    return true;
+}
+
 /// The volume with ends along an axis (`set_ends_along()`), and with the rounds at their rims divided. The
 /// axis is the first along which the volume has rounds and can be swept; empty if there is none.
 std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const CanSweep& can_sweep,
@@ -279,12 +292,8 @@ std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const Ca
     face_away(away, context);
     for (const Vec3& axis : axes_of(away, true)) {
         check_cancelled(context);
-        OpenVolume divided = away;
-        set_ends_along(divided, axis);
-        split_round_rims(divided, RoundsOf::ends_and_walls, context);
-        if (divided.model.faces.size() > away.model.faces.size() && !has_steps(divided, context) &&
-            can_sweep(divided))
-            return divided;
+        set_ends_along(away, axis);
+        if (divide_rounds(away, can_sweep, context)) return away;
     }
     return std::nullopt;
 }
@@ -315,33 +324,33 @@ bool make_ledges_walls(OpenVolume& volume, const Vec3& axis)
 }
 
 /// Cut a volume at its branches and at the steps of its ends along an axis (`set_ends_along()`), such as foam
-/// around a tilted product. If that fails, ledges become walls, such as the underside of a bottle's lip. A
-/// volume with a round bottom is cut at its branches. Empty if no pieces can be swept.
-std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
-                                    const RunContext& context)
+/// around a tilted product; if that fails, with ledges as walls, such as the underside of a bottle's lip. A
+/// volume with a round bottom is cut at its branches.
+/// @return  whether `take` accepted pieces that can be swept
+bool cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep, const TakePieces& take,
+                  const RunContext& context)
 {
+    const auto suits = [&](StepPiece& piece) {
+        return has_ends(piece.volume) &&
+               (can_sweep(piece.volume) || divide_rounds(piece.volume, can_sweep, context));
+    };
+    const auto offer = [&](const OpenVolume& whole, std::size_t least) {
+        auto pieces = unless_refused([&] { return cut_into_pieces(whole, context); });
+        return pieces && pieces->size() >= least && std::ranges::all_of(*pieces, suits) &&
+               take(std::move(*pieces));
+    };
     OpenVolume away = volume;
     face_away(away, context);
     std::vector<Vec3> axes = axes_of(away, true);
     if (axes.size() > kMostTrials) axes.resize(kMostTrials);
-    const auto suits = [&](const StepPiece& piece) {
-        return has_ends(piece.volume) && can_sweep(piece.volume);
-    };
     for (const Vec3& axis : axes) {
         check_cancelled(context);
         set_ends_along(away, axis);
-        auto pieces = unless_refused([&] { return cut_into_pieces(away, context); });
-        if (pieces && pieces->size() > 1 && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
-        if (!make_ledges_walls(away, axis)) continue;
-        pieces = unless_refused([&] { return cut_into_pieces(away, context); });
-        if (pieces && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
+        if (offer(away, 2) || (make_ledges_walls(away, axis) && offer(away, 1))) return true;
     }
     std::ranges::fill(away.role, Role::wall);
-    if (const auto bowl = part_bowl(away, context)) {
-        auto pieces = unless_refused([&] { return cut_into_pieces(bowl->volume, context); });
-        if (pieces && pieces->size() > 1 && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
-    }
-    return {};
+    const auto bowl = part_bowl(away, context);
+    return bowl && offer(bowl->volume, 2);
 }
 
 /// The pieces of a volume that was cut into parts: blocks of divided parts, and the other parts. If there are
@@ -428,7 +437,7 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
     };
     if (auto divided = with_rounds_divided(volume, can_sweep, context))
         if (take({{std::move(*divided)}})) return;
-    if (take_some(cut_in_steps(volume, can_sweep, context)) ||
+    if (cut_in_steps(volume, can_sweep, take, context) ||
         take_some(divided_through_axis(volume, can_sweep, context)) ||
         take_some(divided_at_middle(volume, kMostPieces, can_sweep, context)) ||
         take_some(divided_where_turning(volume, kMostPieces, can_sweep, context)) ||

@@ -43,7 +43,8 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// partitions, in this order:
 /// - the volume as one piece with the faces that face along an axis as ends, after the rounds at the rims of
 ///   these ends were divided (`split_round_rims()`);
-/// - the volume with the faces that face along an axis as ends, cut at their steps (`cut_steps()`);
+/// - the volume with the faces that face along an axis as ends, or with a round bottom, cut at its branches
+///   and at the steps of its ends (`cut_into_pieces()`), with the rounds at the rims of these ends divided;
 /// - a body of revolution with a bore around its axis, cut into two halves that are swept around the axis;
 /// - the volume divided at its middle (`midpoint_blocks()`);
 /// - divided across an axis where smooth parts of the skin turn over;
