@@ -48,7 +48,7 @@ std::optional<Reading> read_bowl(const Model& model, const std::vector<FaceId>& 
 }
 
 std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>& faces,
-                                  const RunContext& context)
+                                  const MayEnclose& may_enclose, const RunContext& context)
 {
     const Roles walls{{}, {}, faces};
     const auto floors = unless_refused([&] {
@@ -60,7 +60,7 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
     });
     // With two floors, the faces are a ring between two ends.
     if (!floors || floors->first == floors->second) return std::nullopt;
-    const std::optional<Sealed> sealed = seal(model, walls, context);
+    const std::optional<Sealed> sealed = seal(model, walls, may_enclose, context);
     if (!sealed) return std::nullopt;
     Reading reading;
     reading.volume = sealed->volume;

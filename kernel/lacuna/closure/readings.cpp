@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/readings.h>
 
+#include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/hollow_readings.h>
 #include <lacuna/closure/detail/no_roles.h>
@@ -13,8 +15,10 @@
 #include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/segment.h>
+#include <lacuna/matching/match.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -176,6 +180,35 @@ bool closes_hole(const Model& model, const Closure& closure)
     });
 }
 
+/// The ring around an axis of which some faces bound a part, such as a groove around a shaft, as a full turn.
+/// Empty if the faces form no tube, or if the ring may not be enclosed.
+std::optional<Reading> read_groove(const Model& model, const std::vector<FaceId>& faces,
+                                   const MayEnclose& may_enclose, const RunContext& context)
+{
+    OpenVolume open = open_volume(model, {{}, {}, faces}, context);
+    open.full_turn = true;
+    const std::vector<FaceId> all = all_faces(open.model);
+    if (free_loops(open).size() != 2 || connected_parts(open.model, all).size() != 1 ||
+        euler_number(open.model, all) != 0)
+        return std::nullopt;
+    Reading ring;
+    const bool fits = unless_refused([&] {
+                          for (const StepPiece& half : cut_full_turn(open, context)) {
+                              const auto match = matching::match(half.volume, {}, context);
+                              const Closed closed = close_trial(half.volume, match, context);
+                              ring.enclosed += enclosed_volume(closed.volume);
+                              if (!may_enclose(closed.volume.model)) return false;
+                          }
+                          return true;
+                      }).value_or(false);
+    if (!fits) return std::nullopt;
+    ring.roles.roles.walls = faces;
+    ring.roles.reasons.emplace_back("the faces form a groove around an axis, which is swept as a full turn: "
+                                    "their rims are closed around the body, not through it");
+    ring.volume = std::move(open);
+    return ring;
+}
+
 /// Replace the readings by that of `read_filled()` if this one is sure. It is only made if the readings
 /// differ, if the first one assumes the shape of a face, or if it closes a hole in its plane: a round wall
 /// may be missing there.
@@ -185,7 +218,7 @@ bool closes_hole(const Model& model, const Closure& closure)
 ///   nothing but round walls between rims; otherwise also that missing faces are flat and missing walls
 ///   straight.
 void prefer_told(const Model& model, const std::vector<FaceId>& faces, std::vector<Reading>& readings,
-                 const RunContext& context)
+                 const MayEnclose& may_enclose, const RunContext& context)
 {
     const Reading& reading = readings.front();
     const bool differ = readings.size() > 1 || reading.holed.valid();
@@ -197,7 +230,7 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, std::vect
     const bool closes = sealed && closes_hole(sealed->volume.model, sealed->closure);
     if (!differ && !untold && !closes && !reading.guess) return;
     auto told = read_filled(model, faces, context);
-    if (!told || told->guess) return;
+    if (!told || told->guess || !may_enclose(told->volume.model)) return;
     const bool alone = closes && !untold && !reading.guess && connected_parts(model, faces).size() == 1;
     if ((differ || alone) && closes_hole(told->volume.model, *told->closure)) return;
     const bool asks = readings.size() > 1 || leave_holes_open(model, readings, faces, context);
@@ -243,6 +276,48 @@ Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const Ru
     return std::move(*reading);
 }
 
+/// The readings of faces whose sealed volumes `may_enclose` accepts, likeliest first.
+std::vector<Reading> readings_of(const Model& model, const std::vector<FaceId>& faces,
+                                 const MayEnclose& may_enclose, const RunContext& context)
+{
+    if (auto floor = read_floor(model, faces, may_enclose, context); floor && closes_flat(*floor)) {
+        std::vector<Reading> readings;
+        readings.push_back(std::move(*floor));
+        prefer_told(model, faces, readings, may_enclose, context);
+        return readings;
+    }
+    const auto seals = [&](const RoleCandidate& candidate) {
+        return seal(model, candidate.roles, may_enclose, context).has_value();
+    };
+    std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed,
+                                    may_enclose, context);
+    if (found.empty()) // the likeliest candidates cannot be sealed; less likely ones may be
+        found = voids(model, less_likely(model, faces, {.most = kMostSealed}, seals, context), kMostSealed,
+                      may_enclose, context);
+    auto flat = fill_free_loops(model, faces, Missing::flat, context);
+    if (flat && !may_enclose(flat->volume.model)) flat.reset();
+    const bool dropped = prefer_flat(found, flat, context);
+    const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });
+    if (auto filled = fill_flat(std::move(flat), faces, told, context)) add_filled(found, std::move(*filled));
+    take_moved(model, faces, found, context);
+    std::erase_if(found, [&](const Void& v) { return !may_enclose(v.sealed.volume.model); });
+    std::vector<Reading> readings;
+    for (Void& now : found) {
+        if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));
+    }
+    if (readings.empty() && !dropped) {
+        auto bowl = read_bowl(model, faces, context);
+        if (bowl && may_enclose(bowl->volume.model)) readings.push_back(std::move(*bowl));
+    }
+    if (readings.empty()) {
+        auto filled = read_filled(model, faces, context);
+        if (filled && may_enclose(filled->volume.model)) readings.push_back(std::move(*filled));
+    } else {
+        prefer_told(model, faces, readings, may_enclose, context);
+    }
+    return readings;
+}
+
 } // namespace
 
 OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
@@ -255,35 +330,27 @@ OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
 std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
-    if (auto floor = read_floor(model, faces, context); floor && closes_flat(*floor)) {
-        std::vector<Reading> readings;
-        readings.push_back(std::move(*floor));
-        prefer_told(model, faces, readings, context);
+    const auto any = [](const Model&) { return true; };
+    if (!are_parts_of_bodies(model, faces)) return readings_of(model, faces, any, context);
+    const MayEnclose outside = [&](const Model& sealed) { return !lies_in_material(model, sealed); };
+    std::vector<Reading> readings = readings_of(model, faces, outside, context);
+    if (!readings.empty()) return readings;
+    if (auto groove = read_groove(model, faces, outside, context)) {
+        readings.push_back(std::move(*groove));
         return readings;
     }
-    const auto seals = [&](const RoleCandidate& candidate) {
-        return seal(model, candidate.roles, context).has_value();
-    };
-    std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed, context);
-    if (found.empty()) // the likeliest candidates cannot be sealed; less likely ones may be
-        found = voids(model, less_likely(model, faces, {.most = kMostSealed}, seals, context), kMostSealed,
-                      context);
-    auto flat = fill_free_loops(model, faces, Missing::flat, context);
-    const bool dropped = prefer_flat(found, flat, context);
-    const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });
-    if (auto filled = fill_flat(std::move(flat), faces, told, context)) add_filled(found, std::move(*filled));
-    take_moved(model, faces, found, context);
-    std::vector<Reading> readings;
-    for (Void& now : found) {
-        if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));
-    }
-    if (readings.empty() && !dropped) {
-        if (auto bowl = read_bowl(model, faces, context)) readings.push_back(std::move(*bowl));
-    }
-    if (readings.empty()) {
-        if (auto filled = read_filled(model, faces, context)) readings.push_back(std::move(*filled));
-    } else {
-        prefer_told(model, faces, readings, context);
+    readings = readings_of(model, faces, any, context);
+    for (Reading& reading : readings) {
+        Closure* closure = reading.closure  ? &*reading.closure
+                           : reading.sealed ? &reading.sealed->closure
+                                            : nullptr;
+        if (closure == nullptr) continue;
+        assume(*closure,
+               Message("closure.in_material",
+                       "the volume lies in the material of the body to which {} belong, not beside it",
+                       entities_of(model, faces))
+                   .remedy("to fill the space beside it, give the missing faces there"),
+               1);
     }
     return readings;
 }

@@ -147,23 +147,25 @@ void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed
 
 } // namespace
 
-std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
+std::optional<Sealed> seal(const Model& model, const Roles& roles, const MayEnclose& may_enclose,
+                           const RunContext& context)
 {
-    return unless_refused([&] {
+    auto sealed = unless_refused([&] {
         const OpenVolume open = open_volume(model, roles, context);
         matching::Match match;
         if (!roles.source.empty() && !roles.target.empty() && !free_edges(open).empty())
             match = matching::match(open, {}, context);
-        Sealed sealed{{close_trial(open, match, context), std::move(match)}};
-        sealed.enclosed = enclosed_volume(sealed.volume);
-        return sealed;
+        Sealed made{{close_trial(open, match, context), std::move(match)}};
+        made.enclosed = enclosed_volume(made.volume);
+        return made;
     });
+    return sealed && may_enclose(sealed->volume.model) ? std::move(sealed) : std::nullopt;
 }
 
 bool same_volume(double a, double b) { return std::abs(a - b) <= kSameVolume * std::max(a, b); }
 
 std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, std::size_t most,
-                        const RunContext& context)
+                        const MayEnclose& may_enclose, const RunContext& context)
 {
     std::vector<Void> found;
     std::size_t sealed = 0;
@@ -176,7 +178,7 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
             continue;
         }
         if (sealed == most) break;
-        std::optional<Sealed> now = seal(model, candidate.roles, context);
+        std::optional<Sealed> now = seal(model, candidate.roles, may_enclose, context);
         if (!now) continue;
         ++sealed;
         add_sealed(found, candidate, std::move(*now), flat);

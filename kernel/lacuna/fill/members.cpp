@@ -492,8 +492,10 @@ void partitions(const topology::OpenVolume& sealed, const closure::TakePieces& t
 
 bool may_cut(const Volume& volume, bool mixed)
 {
-    if (mixed || volume.roles_found) return true;
     const topology::OpenVolume& open = volume.volume;
+    // An open ring is closed only after it was cut across.
+    if (open.full_turn && !topology::free_edges(open).empty()) return false;
+    if (mixed || volume.roles_found) return true;
     return !open.full_turn && std::ranges::none_of(topology::all_faces(open.model), [&](FaceId face) {
         return open.role[face.index()] != topology::Role::wall &&
                open.model[face].origin == topology::Origin::given;

@@ -322,6 +322,38 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
     return cavity;
 }
 
+bool are_parts_of_bodies(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::vector<bool> named(model.faces.size(), false), fits(model.faces.size(), false);
+    for (const FaceId face : faces) named[face.index()] = true;
+    for (const std::vector<FaceId>& shell : closed_shells(model)) {
+        const bool fit = !std::ranges::all_of(shell, [&](FaceId face) { return named[face.index()]; }) &&
+                         volume_integral(model, shell) > 0;
+        for (const FaceId face : shell) fits[face.index()] = fit;
+    }
+    return std::ranges::all_of(faces, [&](FaceId face) -> bool { return fits[face.index()]; });
+}
+
+bool lies_in_material(const Model& model, const Model& sealed)
+{
+    std::map<int, FaceId> by_tag;
+    for (const FaceId face : all_faces(model)) by_tag.try_emplace(model[face].tag, face);
+    double alike = 0; // area with the same outward side [model length²]
+    for (const FaceId face : all_faces(sealed)) {
+        const auto found = by_tag.find(sealed[face].tag);
+        if (sealed[face].origin != Origin::given || found == by_tag.end()) continue;
+        const std::vector<Triangle>& facets = model[found->second].triangles;
+        const geometry::FacetTree tree(model.points, facets);
+        for (const Triangle& t : sealed[face].triangles) {
+            const Vec3 area = facet_area_vector(sealed, t);
+            const auto hit = tree.closest(facet_centre(sealed, t));
+            const double dot = area.dot(facet_area_vector(model, facets[index(hit.triangle)]));
+            alike += dot > 0 ? area.norm() : -area.norm();
+        }
+    }
+    return alike > 0;
+}
+
 std::optional<FaceId> any_inside(const Model& model, const std::vector<FaceId>& faces,
                                  const geometry::FacetTree& tree)
 {

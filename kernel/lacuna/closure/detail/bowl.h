@@ -21,9 +21,10 @@ struct Bowl {
 /// round end or a pocket with a rounded floor.
 ///
 /// The mouth is the only end of the volume. If it has none or both, the mouth is a flat face, and all other
-/// faces lie on one side of its plane. The cutting plane is perpendicular to the mean normal of the mouth, at the lowest height where the inclination of the skin to the mouth reaches half of its largest
-/// value. Quads of the bottom and of the walls are then about equally inclined to the cutting plane. The
-/// plane splits the faces that it crosses.
+/// faces lie on one side of its plane. The cutting plane is perpendicular to the mean normal of the mouth, at
+/// the lowest height where the inclination of the skin to the mouth reaches half of its largest value. Quads
+/// of the bottom and of the walls are then about equally inclined to the cutting plane. The plane splits the
+/// faces that it crosses.
 /// @param sealed  watertight and oriented
 /// @return  empty in any of these cases:
 /// - no face is such a mouth;

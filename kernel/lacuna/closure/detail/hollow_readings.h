@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/readings.h>
 
 #include <optional>
@@ -17,6 +18,6 @@ std::optional<Reading> read_bowl(const topology::Model& model, const std::vector
 /// the other. The source is the floor together with the flat face that closes the mouth of the bore. Empty
 /// for other faces.
 std::optional<Reading> read_floor(const topology::Model& model, const std::vector<FaceId>& faces,
-                                  const RunContext& context);
+                                  const MayEnclose& may_enclose, const RunContext& context);
 
 } // namespace lacuna::closure

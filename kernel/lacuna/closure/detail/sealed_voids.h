@@ -4,6 +4,7 @@
 #include <lacuna/closure/readings.h>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,10 +35,13 @@ struct Void {
     std::string filled;   ///< how it was sealed, in words for the user; empty if by a role candidate
 };
 
+/// Whether a sealed volume is one that the given faces may enclose.
+using MayEnclose = std::function<bool(const topology::Model& sealed)>;
+
 /// Some faces sealed with given roles; empty if that fails.
 /// @throw Cancelled
 std::optional<Sealed> seal(const topology::Model& model, const topology::Roles& roles,
-                           const RunContext& context);
+                           const MayEnclose& may_enclose, const RunContext& context);
 
 /// Whether two volumes are equal within a tolerance. The tolerance exceeds the effect of the facets' sag.
 bool same_volume(double a, double b);
@@ -45,7 +49,7 @@ bool same_volume(double a, double b);
 /// The candidates, sealed and grouped by the volume they enclose.
 /// @param most  largest number of candidates to seal
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
-                        std::size_t most, const RunContext& context);
+                        std::size_t most, const MayEnclose& may_enclose, const RunContext& context);
 
 /// Combine the voids found so far with those that are sealed by moving a given end to the missing one
 /// (`move_ends()`). The first rule that applies:

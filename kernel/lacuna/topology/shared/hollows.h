@@ -55,6 +55,15 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
 std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context = {});
 
+/// Whether each of some faces belongs to a closed body with further faces, whose faces point outward. The
+/// faces then show on which side their void lies.
+bool are_parts_of_bodies(const Model& model, const std::vector<FaceId>& faces);
+
+/// Whether a sealed volume lies in the material of the bodies to which its given faces belong, by area.
+/// @param model   the bodies, see `are_parts_of_bodies()`
+/// @param sealed  faces of the model with their tags, and void faces; oriented outward
+bool lies_in_material(const Model& model, const Model& sealed);
+
 /// The first of some faces that lies inside a volume; checked where the face is deepest in the volume's box.
 /// @param tree  of the facets of the volume.
 std::optional<FaceId> any_inside(const Model& model, const std::vector<FaceId>& faces,

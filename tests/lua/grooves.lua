@@ -1,0 +1,64 @@
+-- SPDX-License-Identifier: MIT
+-- Grooves around a shaft, and a slot in a body whose sides are arcs, named by their faces alone: the void lies
+-- beside the material, not in it.
+-- usage: lacuna grooves.lua scratch=FOLDER
+local lacuna = require "lacuna"
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local params = lacuna.params { scratch = "." }
+local path = params.scratch .. "/groove.geo"
+
+--- The faces of a file for which `is_given` holds.
+local function faces_of(geo, is_given)
+  check.write(path, 'SetFactory("OpenCASCADE");\n' .. geo .. "\n")
+  local model = lacuna.load(path)
+  local faces = {}
+  for _, face in ipairs(model:faces()) do
+    if is_given(face) then faces[#faces + 1] = face end
+  end
+  return model, faces
+end
+
+-- Half width of the flanks, radius at the floor and width of the floor, in a shaft of radius 20.
+for name, groove in pairs { steep = { 2, 10, 0 }, v = { 5, 14, 0 }, flat = { 12, 17, 0 }, belt = { 4, 14, 8 } } do
+  local wide, floor, middle = table.unpack(groove)
+  local parts, at = {}, -40
+  local function add(length, from, to)
+    if length == 0 then return end
+    parts[#parts + 1] = from == to
+      and ("Cylinder(%d) = {0, 0, %g, 0, 0, %g, %g};"):format(#parts + 1, at, length, from)
+      or ("Cone(%d) = {0, 0, %g, 0, 0, %g, %g, %g};"):format(#parts + 1, at, length, from, to)
+    at = at + length
+  end
+  add(40 - wide, 20, 20)
+  add(wide, 20, floor)
+  add(middle, floor, floor)
+  add(wide, floor, 20)
+  add(40 - wide, 20, 20)
+  parts[#parts + 1] = ("BooleanUnion(99) = { Volume{1}; Delete; }{ Volume{2:%d}; Delete; };"):format(#parts)
+  local model, faces = faces_of(table.concat(parts, "\n"), function(face)
+    return face.kind == "cone" or face.kind == "cylinder" and face.radius < 19
+  end)
+  check.equal(#faces, middle > 0 and 3 or 2, name)
+  local volume = math.pi * (2 * wide * (400 - (400 + 20 * floor + floor ^ 2) / 3) + middle * (400 - floor ^ 2))
+  check.near(model:open_volume({ faces = faces }):sweep({}):quality().volume, volume, 0.025 * volume)
+end
+
+-- The head of a slot between two arcs, with a neck to the bore of a stator: its ends and its mouth are missing.
+do
+  local model, faces = faces_of([[
+Cylinder(1) = {0, 0, 0, 0, 0, 20, 60}; Cylinder(2) = {0, 0, 0, 0, 0, 20, 30};
+Cylinder(3) = {0, 0, 0, 0, 0, 20, 44, Pi/8}; Cylinder(4) = {0, 0, 0, 0, 0, 20, 36, Pi/8};
+BooleanDifference(5) = { Volume{3}; Delete; }{ Volume{4}; Delete; };
+Rotate{ {0, 0, 1}, {0, 0, 0}, -Pi/16 }{ Volume{5}; }
+Box(6) = {20, -2, 0, 18, 4, 20};
+BooleanDifference(7) = { Volume{1}; Delete; }{ Volume{2, 5, 6}; Delete; };]], function(face)
+    local out = math.sqrt(face.centroid[1] ^ 2 + face.centroid[2] ^ 2)
+    return face.kind ~= "plane" and face.radius > 31 and face.radius < 59 or
+      face.kind == "plane" and math.abs(face.normal[3]) < 0.5 and out > 30
+  end)
+  check.equal(#faces, 7)
+  local head, neck = math.pi / 16 * (44 ^ 2 - 36 ^ 2), 4 * (36 - 30)
+  check.near(model:open_volume({ faces = faces }):sweep({}):quality().volume, 20 * (head + neck),
+    0.02 * 20 * (head + neck))
+end
+check.done()
