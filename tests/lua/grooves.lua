@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Grooves around a shaft, and a slot in a body whose sides are arcs, named by their faces alone: the void lies
--- beside the material, not in it.
+-- Grooves around a shaft, and a slot in a body whose sides are arcs, named by their faces alone: the void
+-- lies beside the material, not in it.
 -- usage: lacuna grooves.lua scratch=FOLDER
 local lacuna = require "lacuna"
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
@@ -19,7 +19,8 @@ local function faces_of(geo, is_given)
 end
 
 -- Half width of the flanks, radius at the floor and width of the floor, in a shaft of radius 20.
-for name, groove in pairs { steep = { 2, 10, 0 }, v = { 5, 14, 0 }, flat = { 12, 17, 0 }, belt = { 4, 14, 8 } } do
+local grooves = { steep = { 2, 10, 0 }, v = { 5, 14, 0 }, flat = { 12, 17, 0 }, belt = { 4, 14, 8 } }
+for name, groove in pairs(grooves) do
   local wide, floor, middle = table.unpack(groove)
   local parts, at = {}, -40
   local function add(length, from, to)
@@ -39,11 +40,13 @@ for name, groove in pairs { steep = { 2, 10, 0 }, v = { 5, 14, 0 }, flat = { 12,
     return face.kind == "cone" or face.kind == "cylinder" and face.radius < 19
   end)
   check.equal(#faces, middle > 0 and 3 or 2, name)
-  local volume = math.pi * (2 * wide * (400 - (400 + 20 * floor + floor ^ 2) / 3) + middle * (400 - floor ^ 2))
+  local flank = 2 * wide * (400 - (400 + 20 * floor + floor ^ 2) / 3)
+  local volume = math.pi * (flank + middle * (400 - floor ^ 2))
   check.near(model:open_volume({ faces = faces }):sweep({}):quality().volume, volume, 0.025 * volume)
 end
 
--- The head of a slot between two arcs, with a neck to the bore of a stator: its ends and its mouth are missing.
+-- The head of a slot between two arcs, with a neck to the bore of a stator: its ends and its mouth are
+-- missing.
 do
   local model, faces = faces_of([[
 Cylinder(1) = {0, 0, 0, 0, 0, 20, 60}; Cylinder(2) = {0, 0, 0, 0, 0, 20, 30};

@@ -342,14 +342,15 @@ bool lies_in_material(const Model& model, const Model& sealed)
     for (const FaceId face : all_faces(sealed)) {
         const auto found = by_tag.find(sealed[face].tag);
         if (sealed[face].origin != Origin::given || found == by_tag.end()) continue;
-        const std::vector<Triangle>& facets = model[found->second].triangles;
-        const geometry::FacetTree tree(model.points, facets);
-        for (const Triangle& t : sealed[face].triangles) {
-            const Vec3 area = facet_area_vector(sealed, t);
-            const auto hit = tree.closest(facet_centre(sealed, t));
-            const double dot = area.dot(facet_area_vector(model, facets[index(hit.triangle)]));
-            alike += dot > 0 ? area.norm() : -area.norm();
-        }
+        const Triangle& largest = *std::ranges::max_element(
+            sealed[face].triangles, {},
+            [&](const Triangle& t) { return facet_area_vector(sealed, t).squaredNorm(); });
+        const Vec3 at = facet_centre(sealed, largest);
+        const Triangle& own = *std::ranges::min_element(
+            model[found->second].triangles, {},
+            [&](const Triangle& t) { return (facet_centre(model, t) - at).squaredNorm(); });
+        const bool same = facet_area_vector(sealed, largest).dot(facet_area_vector(model, own)) > 0;
+        alike += (same ? 1 : -1) * face_area(sealed, face);
     }
     return alike > 0;
 }
