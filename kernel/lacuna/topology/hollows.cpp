@@ -327,8 +327,9 @@ bool are_parts_of_bodies(const Model& model, const std::vector<FaceId>& faces)
     std::vector<bool> named(model.faces.size(), false), fits(model.faces.size(), false);
     for (const FaceId face : faces) named[face.index()] = true;
     for (const std::vector<FaceId>& shell : closed_shells(model)) {
-        const bool fit = !std::ranges::all_of(shell, [&](FaceId face) { return named[face.index()]; }) &&
-                         volume_integral(model, shell) > 0;
+        double balance = 0; // area that is named, less the area that is not [model length²]
+        for (const FaceId face : shell) balance += (named[face.index()] ? 1 : -1) * face_area(model, face);
+        const bool fit = balance < 0 && volume_integral(model, shell) > 0;
         for (const FaceId face : shell) fits[face.index()] = fit;
     }
     return std::ranges::all_of(faces, [&](FaceId face) -> bool { return fits[face.index()]; });

@@ -55,8 +55,9 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
 std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context = {});
 
-/// Whether each of some faces belongs to a closed body with further faces, whose faces point outward. The
-/// faces then show on which side their void lies.
+/// Whether each of some faces belongs to a closed body, whose faces point outward, and the faces are less
+/// than half of its skin. They then show on which side their void lies: beside the body. With more of the
+/// skin, the void may be the body without the other faces.
 bool are_parts_of_bodies(const Model& model, const std::vector<FaceId>& faces);
 
 /// Whether a sealed volume lies in the material of the bodies to which its given faces belong, by area.
