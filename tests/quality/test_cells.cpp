@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/shared/prove_cells.h>
 
 #include <doctest/doctest.h>
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 using namespace lacuna;
 
@@ -297,4 +299,16 @@ TEST_CASE("more cutting never takes back a certificate")
         }
     }
     CHECK(gained > 50);
+}
+
+TEST_CASE("a corner that is flat but for rounding makes a cell inverted")
+{
+    Corners corners = cube();
+    corners[0] = {0.5, 0.5 - 1e-15, 0};
+    corners[4] = {0.5, 0.5 - 1e-15, 1};
+    REQUIRE(quality::scaled_jacobian(corners) > 0);
+    CHECK(quality::scaled_jacobian(corners) < 1e-14);
+    const std::vector<Vec3> nodes(corners.begin(), corners.end());
+    const std::vector<Hex> cells{{0, 1, 2, 3, 4, 5, 6, 7}};
+    CHECK(quality::prove_cells(nodes, cells).quality.inverted == 1);
 }

@@ -266,7 +266,7 @@ void decide(CurvedCell& cell, const Bezier& bezier, double scaled, int max_depth
     cell.bound = cell.volume != 0 ? least / std::abs(cell.volume) : -1;
     cell.scaled_jacobian = scaled;
     const double floor = kRoundoff * largest; // conversion to Bézier amplifies rounding by less than 1e4
-    cell.positive = cell.scaled_jacobian > 0 &&
+    cell.positive = cell.scaled_jacobian > kRoundoff &&
                     (least > floor || positive_parts(bezier, floor, {max_depth, max_depth, max_depth}));
 }
 

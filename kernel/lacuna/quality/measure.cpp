@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/detail/worst_list.h>
 #include <lacuna/quality/quality.h>
@@ -40,7 +41,7 @@ void count_bad(Partial& partial, const Values& values, const Signs& signs, int f
 {
     for (int lane = 0; lane < filled; ++lane) {
         const Sign sign = signs[static_cast<std::size_t>(lane)];
-        const bool upright = values.scaled[lane] > 0;
+        const bool upright = values.scaled[lane] > kRoundoff;
         if (!upright) ++partial.inverted;
         if (upright && (values.smallest[lane] > 0 || sign == Sign::positive)) continue;
         if (!upright || sign == Sign::not_positive ||
@@ -65,7 +66,7 @@ void add_batch(Partial& partial, const Cells& cells, const Values& values, const
         volume += values.volume[lane];
         least = std::min(least, scaled);
         most = std::max(most, scaled);
-        positive = positive && scaled > 0 && values.smallest[lane] > 0;
+        positive = positive && scaled > kRoundoff && values.smallest[lane] > 0;
     }
     partial.sum = sum;
     partial.volume = volume;

@@ -2,6 +2,7 @@
 #include <lacuna/quality/detail/other_cells.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quality/detail/wedge.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ OtherValues wedge_values(const CellCorners& corners)
     OtherValues values{wedge.scaled, kInfinity, wedge.volume};
     for (const std::array<double, 3>& along : wedge.coefficients)
         values.jacobian = std::min({values.jacobian, along.front(), along.back()});
-    values.positive = wedge.scaled > 0 &&
+    values.positive = wedge.scaled > kRoundoff &&
                       (wedge.smallest > 0 || positive_everywhere(view_of(over_cube(wedge)), kCertifyDepth));
     return values;
 }
@@ -48,7 +49,7 @@ OtherValues evaluate_other(CellKind kind, const CellCorners& corners)
     }
     // The mean of the four determinants, times the integral of (1 - w)² or of the tetrahedron.
     values.volume /= kind == CellKind::pyramid ? 12 : 24;
-    values.positive = values.scaled > 0 && values.jacobian > 0;
+    values.positive = values.scaled > kRoundoff && values.jacobian > 0;
     return values;
 }
 

@@ -61,7 +61,7 @@ struct Quality {
     std::size_t wedges = 0; ///< wedges; they count in all values below
     double min_scaled_jacobian = 1;
     double mean_scaled_jacobian = 1;
-    std::size_t inverted = 0;                ///< cells with a Jacobian <= 0 at a corner
+    std::size_t inverted = 0;                ///< cells with a scaled Jacobian <= 1e-12 (rounding) at a corner
     std::size_t uncertified = 0;             ///< cells whose Jacobian is not proved positive everywhere
     std::array<std::size_t, 20> histogram{}; ///< counts by scaled Jacobian, in twenty equal bins over [-1, 1]
     std::vector<WorstCell> worst;            ///< at most ten, worst first; at most one of each column
@@ -112,7 +112,7 @@ enum class Fault {
     skin_differs,     ///< the given skin is not the skin of the cells
     not_finite,       ///< a coordinate is not finite
     coincident_nodes, ///< two nodes coincide
-    inverted,         ///< cells with a Jacobian <= 0 at a corner
+    inverted,         ///< cells with a scaled Jacobian <= 1e-12 at a corner
     not_certified,    ///< cells whose Jacobian is not proved positive everywhere
     below_limit,      ///< cells below the required scaled Jacobian
 };
