@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: MIT
--- Grooves around a shaft, and a slot in a body whose sides are arcs, named by their faces alone: the void
--- lies beside the material, not in it.
+-- Grooves and slots in bodies, named by their faces alone: the void lies beside the material, not in it.
 -- usage: lacuna grooves.lua scratch=FOLDER
 local lacuna = require "lacuna"
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
@@ -63,5 +62,22 @@ BooleanDifference(7) = { Volume{1}; Delete; }{ Volume{2, 5, 6}; Delete; };]], fu
   local head, neck = math.pi / 16 * (44 ^ 2 - 36 ^ 2), 4 * (36 - 30)
   check.near(model:open_volume({ faces = faces }):sweep({}):quality().volume, 20 * (head + neck),
     0.02 * 20 * (head + neck))
+end
+
+-- A slot with round ends whose floor is in three coplanar parts, as boolean operations leave it: cells cannot
+-- follow the edges between the parts as well as the rim.
+for _, long in ipairs { 20, 40, 60 } do
+  local model, faces = faces_of(([[
+Box(1) = {-50, -20, -20, 100, 40, 20}; Box(2) = {%g, -6, -10, %g, 12, 11};
+Cylinder(3) = {%g, 0, -10, 0, 0, 11, 6}; Cylinder(4) = {%g, 0, -10, 0, 0, 11, 6};
+BooleanDifference(5) = { Volume{1}; Delete; }{ Volume{2:4}; Delete; };]]):format(-long / 2, long, -long / 2,
+    long / 2), function(face)
+    return face.kind == "cylinder" or math.abs(face.centroid[3] + 10) < 1e-6 or
+      math.abs(math.abs(face.centroid[2]) - 6) < 1e-6
+  end)
+  local quality = model:open_volume({ faces = faces }):sweep({}):quality()
+  local volume = 10 * (12 * long + math.pi * 36)
+  check.near(quality.volume, volume, 0.01 * volume)
+  check.that(quality.min_scaled_jacobian > 0.6, quality.min_scaled_jacobian)
 end
 check.done()

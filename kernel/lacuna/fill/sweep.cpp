@@ -422,8 +422,9 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     return filled;
 }
 
-/// Sweep a volume once. If cells are poor, and the ends are not the user's, the volume is also swept in
-/// pieces, and the mesh whose worst cell is better is taken. Only the notes of that mesh are logged.
+/// Sweep a volume once. If cells are poor, and the ends are not the user's, the volume is also swept with its
+/// faces that continue each other joined, and, if cells are still poor, in pieces. The mesh whose worst cell
+/// is best is taken. Only the notes of that mesh are logged.
 /// @param pieces, told  as for `sweep_once()` and `sweep_in_pieces()`
 Filled sweep_once_or_better(const Volume& volume, bool pieces, bool told, const SweepRequest& request,
                             const RunContext& context)
@@ -431,7 +432,7 @@ Filled sweep_once_or_better(const Volume& volume, bool pieces, bool told, const 
     const sweep::LayerSpec& layers = request.options.layers;
     if (!may_cut(volume, false) || volume.along || layers.count > 0 || !layers.heights.empty())
         return sweep_once(volume, pieces, request, context);
-    std::vector<std::string> notes, notes_of_pieces;
+    std::vector<std::string> notes;
     RunContext own = context;
     own.log = [&](std::string_view line) { notes.emplace_back(line); };
     const auto log_notes = [&] {
@@ -444,17 +445,26 @@ Filled sweep_once_or_better(const Volume& volume, bool pieces, bool told, const 
         log_notes();
         throw;
     }
-    if (const double least = least_of(parts(*filled)); least < kPoorCell) {
+    const auto take_better = [&](std::string_view how, const auto& fill) {
+        const double least = least_of(parts(*filled));
+        if (!(least < kPoorCell)) return;
+        std::vector<std::string> notes_of_other;
+        auto other = attempted(how, notes_of_other, context, fill);
+        if (!other || !(least_of(parts(*other)) > least + kVisible)) return;
+        filled = std::move(other);
+        notes = std::move(notes_of_other);
+    };
+    // Cells cannot follow edges between coplanar parts of an end as well as its rim.
+    take_better("with faces joined", [&](const RunContext& other) -> std::optional<Filled> {
+        const auto joined = with_joined_faces(volume, other);
+        if (!joined) return std::nullopt;
+        return sweep_once(*joined, has_pieces(*joined, other), request, other);
+    });
+    take_better("in pieces", [&](const RunContext& other) {
         const Message why("quality.below_limit", "the least scaled Jacobian of a single sweep is {:.2g}",
-                          found(least));
-        auto better = attempted("in pieces", notes_of_pieces, context, [&](const RunContext& other) {
-            return sweep_in_pieces(volume, why, told, request, other);
-        });
-        if (better && least_of(parts(*better)) > least + kVisible) {
-            filled = std::move(better);
-            notes = std::move(notes_of_pieces);
-        }
-    }
+                          found(least_of(parts(*filled))));
+        return sweep_in_pieces(volume, why, told, request, other);
+    });
     log_notes();
     return std::move(*filled);
 }
