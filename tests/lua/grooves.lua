@@ -72,8 +72,8 @@ Box(1) = {-50, -20, -20, 100, 40, 20}; Box(2) = {%g, -6, -10, %g, 12, 11};
 Cylinder(3) = {%g, 0, -10, 0, 0, 11, 6}; Cylinder(4) = {%g, 0, -10, 0, 0, 11, 6};
 BooleanDifference(5) = { Volume{1}; Delete; }{ Volume{2:4}; Delete; };]]):format(-long / 2, long, -long / 2,
     long / 2), function(face)
-    return face.kind == "cylinder" or math.abs(face.centroid[3] + 10) < 1e-6 or
-      math.abs(math.abs(face.centroid[2]) - 6) < 1e-6
+    return face.kind == "cylinder" or math.abs(math.abs(face.centroid[2]) - 6) < 1e-6 or
+      math.abs(face.normal[3]) > 0.5 and math.abs(face.centroid[3] + 10) < 1e-6
   end)
   local quality = model:open_volume({ faces = faces }):sweep({}):quality()
   local volume = 10 * (12 * long + math.pi * 36)
