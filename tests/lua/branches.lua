@@ -313,6 +313,8 @@ local chambers = {
   vessel = "Cylinder(1) = {0, 0, -50, 0, 0, 100, 40};",
   disc = "Cylinder(1) = {0, 0, -20, 0, 0, 40, 35};",
   ball = "Sphere(1) = {0, 0, 0, 45};",
+  capsule = "Cylinder(98) = {0, 0, -20, 0, 0, 40, 35}; Sphere(97) = {0, 0, -20, 35};\n" ..
+    "Sphere(96) = {0, 0, 20, 35}; BooleanUnion(1) = { Volume{98}; Delete; }{ Volume{96:97}; Delete; };",
   rounded = "Box(98) = {-50, -40, -30, 100, 80, 60}; Fillet{98}{1:12}{10}",
   drilled = "Cylinder(98) = {0, 0, -40, 0, 0, 80, 30}; Cylinder(97) = {0, 0, -80, 0, 0, 40, 16};\n" ..
     "Cone(96) = {0, 0, -80, 0, 0, -9.2, 16, 0};\n" ..
@@ -324,12 +326,12 @@ local chambers = {
 }
 local ports = {
   x = { 100, 0, 0, 15 }, w = { -100, 0, 0, 15 }, y = { 0, 90, 0, 12 }, v = { 0, -90, 0, 10 },
-  z = { 0, 0, 80, 12 },
+  z = { 0, 0, 80, 12 }, d = { 0, 0, -80, 10 },
 }
 for _, member in ipairs { { "box", "xz" }, { "box", "xyz" }, { "box", "xwz" }, { "box", "xwyvz" },
   { "vessel", "xz" }, { "vessel", "xy" }, { "disc", "xz" }, { "disc", "xwz" }, { "ball", "xwz" },
   { "ball", "xwyz" }, { "drilled", "xz" }, { "valve", "xz" },
-  { "rounded", "xz" } } do
+  { "rounded", "xz" }, { "capsule", "xzd" } } do
   local lines, open_at = { 'SetFactory("OpenCASCADE");', chambers[member[1]] }, {}
   for port in member[2]:gmatch "." do
     local x, y, z, radius = table.unpack(ports[port])

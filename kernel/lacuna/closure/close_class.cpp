@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
+#include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -217,8 +218,23 @@ std::optional<Vec3> up_a_wall(const OpenVolume& volume)
                     way ? formatted("{:.9g}, {:.9g}, {:.9g}", way->x(), way->y(), way->z()) : "x, y, z"));
 }
 
+/// Whether some loops are flat and look in directions that differ by more than those of one end may, such as
+/// the rims of nozzles on several sides of a vessel. No single face joins them.
+bool look_apart(const Model& model, const std::vector<Loop>& loops)
+{
+    std::vector<Vec3> normals;
+    for (const Loop& loop : loops) {
+        const std::vector<Vec3> places = loop_places(model, loop.uses);
+        if (!is_flat(model, {loop.uses})) return false;
+        normals.push_back(geometry::newell_vector(places).stableNormalized());
+    }
+    return std::ranges::any_of(normals, [&](const Vec3& a) {
+        return std::ranges::any_of(normals, [&](const Vec3& b) { return a.dot(b) < -kFacesEnd; });
+    });
+}
+
 /// Close class IV by eq. (3) and (4) of the paper: the free loops of source and walls bound the target.
-/// Departure: holes in walls are closed by void walls.
+/// Departures: holes in walls are closed by void walls; flat loops that look apart get a face each.
 void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 10");
@@ -255,7 +271,12 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
             return;
         }
     }
-    add_faces(volume, closure, {loops}, Role::target, tools);
+    std::vector<std::vector<Loop>> targets{loops};
+    if (look_apart(model, loops)) {
+        targets.clear();
+        for (const Loop& loop : loops) targets.push_back({loop});
+    }
+    add_faces(volume, closure, targets, Role::target, tools);
 }
 
 /// Close class V by eq. (5) to (8) of the paper: the free loops, sorted into two sets, bound source and
