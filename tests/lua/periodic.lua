@@ -550,4 +550,15 @@ do
   end
 end
 
+-- Ends of a CAD body, named by their roles.
+do
+  local path = params.scratch .. "/block.geo"
+  check.write(path, 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 3, 2, 4};\n')
+  local model = lacuna.load(path)
+  local low, high = model:face { facing = { 0, 0, -1 } }, model:face { facing = { 0, 0, 1 } }
+  local void = model:open_volume { source = low, target = high, walls = "auto" }
+  local mesh = void:sweep { size = 1, periodic = { { "source", "target" } } }
+  local _, links = periodic_of(mesh, "by_roles")
+  check.equal(#links[1], 12)
+end
 check.done()

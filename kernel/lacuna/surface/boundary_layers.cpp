@@ -25,13 +25,10 @@ bool is_tagged(const Face& face, int tag) { return face.origin == Origin::given 
 bool is_named(const OpenVolume& volume, FaceId id, const std::string& name)
 {
     const Face& face = volume.model[id];
-    if (name == "walls") return volume.role[id.index()] == Role::wall;
-    if (face.origin == Origin::made_void) {
-        const Role role = volume.role[id.index()];
-        return name == void_name(face) || (name == "source" && role == Role::source) ||
-               (name == "target" && role == Role::target);
-    }
-    return topology::is_called(face, name);
+    const Role role = volume.role[id.index()];
+    if (name == "walls") return role == Role::wall;
+    if ((name == "source" && role == Role::source) || (name == "target" && role == Role::target)) return true;
+    return face.origin == Origin::made_void ? name == void_name(face) : topology::is_called(face, name);
 }
 
 class RimReader {

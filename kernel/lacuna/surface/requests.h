@@ -16,7 +16,8 @@ namespace lacuna::surface {
 /// Faces as named by the user: the union of both lists.
 struct FaceNames {
     std::vector<int> tags; ///< tags of given faces
-    /// Names of given faces; "void:<n>": void face n; "source", "target": void ends; "walls": all walls.
+    /// Names of given faces; "void:<n>": void face n; "source", "target": the faces of an end; "walls": all
+    /// walls.
     std::vector<std::string> names;
     std::set<FaceId> inner{}; ///< faces between pieces of one volume, which "walls" leaves out
 };

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace lacuna::topology {
@@ -127,6 +128,16 @@ std::vector<FaceId> select(const Model& model, FaceSelector selector)
     std::vector<FaceId> faces;
     for (const FaceId face : all_faces(model))
         if (matches(model, face, selector)) faces.push_back(face);
+    if (selector.tags) { // a void face may have the tag of a given one
+        const auto shares_tag = [&](FaceId face) {
+            return model[face].origin != Origin::given && std::ranges::any_of(faces, [&](FaceId other) {
+                       return model[other].origin == Origin::given && model[other].tag == model[face].tag;
+                   });
+        };
+        std::vector<FaceId> own;
+        std::ranges::remove_copy_if(faces, std::back_inserter(own), shares_tag);
+        faces = std::move(own);
+    }
     if (selector.touching_model || selector.touching_tag || !selector.touching_name.empty())
         keep_touching(model, selector, faces);
     if (!selector.near || faces.empty()) return faces;

@@ -13,7 +13,7 @@ namespace lacuna::topology {
 
 /// Conditions that select faces; all that are set must hold.
 struct FaceSelector {
-    std::optional<std::vector<int>> tags;
+    std::optional<std::vector<int>> tags; ///< of given faces; of void faces where no given face has the tag
     std::string name, kind, region;
     std::optional<Vec3> facing, near; ///< `facing` of length 1
     double normal_within = 30;        ///< of `facing` [degrees]
