@@ -54,6 +54,11 @@ model:add_face { name = "knife", points = { { -2, -2, 1 }, { 2, -2, 1.4 }, { 2, 
 check.near(joined(open(prism):cut { face = model:face "knife" }).fidelity.volume, whole, 1e-9)
 check.fails(function() open(prism):cut { face = "target" } end, "touches", 'face 2 "target"')
 
+-- A tag names the given face, although a void face has the same.
+local closed = open(open_prism)
+closed:close()
+check.fails(function() closed:cut { face = 1 } end, "touches", "face 1")
+
 -- What is refused.
 local v = open(prism)
 check.fails(function() v:cut { plane = { { 0, 0, 4 }, { 0, 0, 1 } } } end, "misses", "from -4 to -1")
