@@ -169,15 +169,27 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
 
 // --- volumes that no single sweep fills -------------------------------------------------------------------
 
-/// Sweep pieces and check that their volume is that of the sealed whole.
+/// The relative difference between the volume of a mesh and that of the sealed skin.
+double lost_volume(const FilledParts& mesh)
+{
+    const sweep::Fidelity shape = fidelity(mesh);
+    return std::abs(shape.volume / shape.sealed_volume - 1);
+}
+
+/// Sweep pieces and check that their volume is that of the sealed whole. If it is not, the sizes are reduced
+/// once, by what was measured: what facets cut off falls with the square of the size. Half of the difference
+/// that is allowed is aimed at, because numbers of sides are rounded.
 /// @param sized  whether the user requested sizes; if so, the volume is not checked here.
 /// @throw NotSweepable "sweep.volume"  the volumes differ.
-FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPiece> pieces,
-                              const sweep::SweepOptions& options, bool sized, const RunContext& context)
+FilledParts sweep_pieces_true(const Volume& sealed, const std::vector<closure::StepPiece>& pieces,
+                              sweep::SweepOptions options, bool sized, const RunContext& context)
 {
-    FilledParts mesh = sweep_pieces(sealed, std::move(pieces), options, context);
-    const sweep::Fidelity shape = fidelity(mesh);
-    if (const double off = std::abs(shape.volume / shape.sealed_volume - 1); !sized && off > kVolumeNoted)
+    FilledParts mesh = sweep_pieces(sealed, pieces, options, context);
+    if (sized || !(lost_volume(mesh) > kVolumeNoted)) return mesh;
+    const double finer = std::sqrt(kSameVolume / 2 / lost_volume(mesh));
+    options.size = [size = options.size, finer](const Vec3& p) { return finer * size(p); };
+    mesh = sweep_pieces(sealed, pieces, options, context);
+    if (const double off = lost_volume(mesh); off > kVolumeNoted)
         throw NotSweepable(
             Message("sweep.volume",
                     "the meshes of the pieces together differ by {:.2g} % in volume from the sealed skin",
@@ -338,7 +350,12 @@ std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& 
     std::vector<int> apart(open.role.size(), 0);
     for (std::size_t f = 0; named && f < apart.size(); ++f) apart[f] = static_cast<int>(open.role[f]);
     const std::vector<std::vector<FaceId>> faces = topology::continued_faces(open.model, apart, context);
-    if (faces.size() == open.model.faces.size()) return std::nullopt;
+    // Parts of one face have its tag; opened again, the face would be split again.
+    const auto is_one_face = [&](const std::vector<FaceId>& parts) {
+        return std::ranges::all_of(
+            parts, [&](FaceId part) { return open.model[part].tag == open.model[parts.front()].tag; });
+    };
+    if (std::ranges::all_of(faces, is_one_face)) return std::nullopt;
     for (const std::vector<FaceId>& parts : faces)
         if (parts.size() > 1)
             log_line(context,
