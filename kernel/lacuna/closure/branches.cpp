@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/branches.h>
 
-#include <lacuna/closure/detail/bowl.h>
 #include <lacuna/closure/detail/branch_mouths.h>
 #include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/shared/cut.h>
-#include <lacuna/closure/shared/partition.h>
-#include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
@@ -622,13 +619,6 @@ std::vector<StepPiece> cut_into_pieces(const OpenVolume& volume, const RunContex
     // Rounds are divided only if there is a single piece, because two pieces must not divide a round that
     // they share.
     if (result.size() == 1) split_round_rims(result.front().volume, RoundsOf::walls, context);
-    // An end that a branch's cut made is a wall of an arm that has steps: it already had ends.
-    if (result.size() > 1 && !std::ranges::all_of(result, has_ends, &StepPiece::volume))
-        result = read_ends(std::move(result), context).pieces;
-    for (StepPiece& piece : result) { // a branch may have a round bottom
-        if (has_ends(piece.volume) || !free_edges(piece.volume).empty()) continue;
-        if (auto bowl = part_bowl(piece.volume, context)) piece.volume = std::move(bowl->volume);
-    }
     std::ranges::stable_sort(result, {}, &StepPiece::level);
     return result;
 }

@@ -323,21 +323,35 @@ bool make_ledges_walls(OpenVolume& volume, const Vec3& axis)
     return !ledges.empty();
 }
 
+/// Find the ends of pieces of branches and steps that lack one. An end that the cut of a branch made is a wall
+/// of an arm that has steps, because the arm already had ends. A branch may have a round bottom.
+void find_missing_ends(std::vector<StepPiece>& pieces, const RunContext& context)
+{
+    if (std::ranges::all_of(pieces, has_ends, &StepPiece::volume)) return;
+    pieces = read_ends(std::move(pieces), context).pieces;
+    for (StepPiece& piece : pieces) {
+        if (has_ends(piece.volume) || !free_edges(piece.volume).empty()) continue;
+        if (auto bowl = part_bowl(piece.volume, context)) piece.volume = std::move(bowl->volume);
+    }
+}
+
 /// Cut a volume at its branches and at the steps of its ends along an axis (`set_ends_along()`), such as foam
 /// around a tilted product; if that fails, with ledges as walls, such as the underside of a bottle's lip. A
 /// volume with a round bottom is cut at its branches.
+/// @param change  whether pieces that cannot be swept are changed: other ends, and rounds divided
 /// @return  whether `take` accepted pieces that can be swept
-bool cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep, const TakePieces& take,
+bool cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep, bool change, const TakePieces& take,
                   const RunContext& context)
 {
     const auto suits = [&](StepPiece& piece) {
         return has_ends(piece.volume) &&
-               (can_sweep(piece.volume) || divide_rounds(piece.volume, can_sweep, context));
+               (can_sweep(piece.volume) || (change && divide_rounds(piece.volume, can_sweep, context)));
     };
     const auto offer = [&](const OpenVolume& whole, std::size_t least) {
         auto pieces = unless_refused([&] { return cut_into_pieces(whole, context); });
-        return pieces && pieces->size() >= least && std::ranges::all_of(*pieces, suits) &&
-               take(std::move(*pieces));
+        if (!pieces || pieces->size() < least) return false;
+        if (change) find_missing_ends(*pieces, context);
+        return std::ranges::all_of(*pieces, suits) && take(std::move(*pieces));
     };
     OpenVolume away = volume;
     face_away(away, context);
@@ -348,6 +362,7 @@ bool cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep, const Tak
         set_ends_along(away, axis);
         if (offer(away, 2) || (make_ledges_walls(away, axis) && offer(away, 1))) return true;
     }
+    if (!change) return false;
     std::ranges::fill(away.role, Role::wall);
     const auto bowl = part_bowl(away, context);
     return bowl && offer(bowl->volume, 2);
@@ -437,7 +452,7 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
     };
     if (auto divided = with_rounds_divided(volume, can_sweep, context))
         if (take({{std::move(*divided)}})) return;
-    if (cut_in_steps(volume, can_sweep, take, context) ||
+    if (cut_in_steps(volume, can_sweep, false, take, context) ||
         take_some(divided_through_axis(volume, can_sweep, context)) ||
         take_some(divided_at_middle(volume, kMostPieces, can_sweep, context)) ||
         take_some(divided_where_turning(volume, kMostPieces, can_sweep, context)) ||
@@ -451,6 +466,7 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
     if (!is_swept && take_new(pieces_of(std::move(first), can_sweep, context))) return;
     for (std::size_t c = 1; c < cuts.size(); ++c)
         if (take_new(pieces_of(parts_of_cut(c), can_sweep, context))) return;
+    cut_in_steps(volume, can_sweep, true, take, context);
 }
 
 } // namespace lacuna::closure

@@ -43,8 +43,8 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// partitions, in this order:
 /// - the volume as one piece with the faces that face along an axis as ends, after the rounds at the rims of
 ///   these ends were divided (`split_round_rims()`);
-/// - the volume with the faces that face along an axis as ends, or with a round bottom, cut at its branches
-///   and at the steps of its ends (`cut_into_pieces()`), with the rounds at the rims of these ends divided;
+/// - the volume with the faces that face along an axis as ends, cut at its branches and at the steps of its
+///   ends (`cut_into_pieces()`);
 /// - a body of revolution with a bore around its axis, cut into two halves that are swept around the axis;
 /// - the volume divided at its middle (`midpoint_blocks()`);
 /// - divided across an axis where smooth parts of the skin turn over;
@@ -52,7 +52,9 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - the pieces of the best cuts, if some have no ends. Pieces that still have a length to cut are divided at
 ///   their middles where that is possible. If no cut helps, the only piece is the volume itself, with other
 ///   ends if there are any;
-/// - the pieces of up to five other cuts of the volume; these pieces are cut further in the same way.
+/// - the pieces of up to five other cuts of the volume; these pieces are cut further in the same way;
+/// - cut at branches and steps once more, also with a round bottom as an end; pieces that cannot be swept get
+///   other ends, or the rounds at the rims of their ends are divided.
 /// @param least  the least distance between a cut and an edge beside it, unless the volume itself is that
 ///               thin there [model length].
 /// @param take   called with pieces and their ends; those without ends cannot be swept. If no cut helps, the
