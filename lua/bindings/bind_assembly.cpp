@@ -12,26 +12,25 @@ namespace lacuna::lua {
 void set_near_misses(lua_State* L, const fill::FilledParts& mesh)
 {
     const std::vector<sweep::NearMiss>& misses = mesh.swept.near_misses;
-    push_array(L, misses, [&](const auto& miss) {
+    set_array(L, "near_misses", misses, [&](const auto& miss) {
         lua_createtable(L, 0, 12);
-        set_string(L, "a", mesh.regions[miss.a].c_str());
-        set_string(L, "b", mesh.regions[miss.b].c_str());
-        set_whole(L, "face_a", miss.tag_a);
-        set_whole(L, "face_b", miss.tag_b);
+        set_field(L, "a", mesh.regions[miss.a].c_str());
+        set_field(L, "b", mesh.regions[miss.b].c_str());
+        set_field(L, "face_a", miss.tag_a);
+        set_field(L, "face_b", miss.tag_b);
         if (miss.edge) {
-            set_whole(L, "edge", miss.edge_tag);
-            set_string(L, "edge_of", mesh.regions[miss.edge_of].c_str());
-            set_number(L, "length", miss.length);
+            set_field(L, "edge", miss.edge_tag);
+            set_field(L, "edge_of", mesh.regions[miss.edge_of].c_str());
+            set_field(L, "length", miss.length);
         } else {
-            set_number(L, "area", miss.area);
+            set_field(L, "area", miss.area);
         }
-        set_number(L, "least", miss.least);
-        set_number(L, "width", miss.width);
-        set_number(L, "tolerance", miss.tolerance);
-        set_boolean(L, "reach_in", miss.reach_in);
-        set_string(L, "message", miss.message.text());
+        set_field(L, "least", miss.least);
+        set_field(L, "width", miss.width);
+        set_field(L, "tolerance", miss.tolerance);
+        set_field(L, "reach_in", miss.reach_in);
+        set_field(L, "message", miss.message.text());
     });
-    lua_setfield(L, -2, "near_misses");
 }
 
 namespace {
@@ -62,9 +61,7 @@ int make_assembly(lua_State* L)
                    guard(L, [&] { entries.push_back(entry); });
                });
     if (entries.empty()) fail(L, "assembly: give volumes: lacuna.assembly { volume, volume, ... }");
-    auto& box = new_box<AssemblyState>(L);
-    guard(L, [&] { box = std::make_shared<AssemblyState>(AssemblyState{entries}); });
-    return 1;
+    return give_new<AssemblyState>(L, [&] { return AssemblyState{entries}; });
 }
 
 int assembly_to_string(lua_State* L)
@@ -133,14 +130,10 @@ int split_interface(lua_State* L)
     auto& faces = temporary<fill::InterfaceFaces>(L);
     read_options(L, 2, "split_interface", kInterfaceOptions, faces);
     RunContext& context = push_context(L);
-    auto& box = new_box<AssemblyMeshState>(L);
-    guard(L, [&] {
-        auto made = std::make_shared<AssemblyMeshState>();
-        static_cast<fill::FilledParts&>(*made) = fill::split_interface(
-            mesh != nullptr ? **mesh : fill::as_parts(**one), faces, context);
-        box = std::move(made);
+    return give_new<AssemblyMeshState>(L, [&] {
+        return AssemblyMeshState{
+            fill::split_interface(mesh != nullptr ? **mesh : fill::as_parts(**one), faces, context)};
     });
-    return 1;
 }
 
 int interface_cells(lua_State* L)
@@ -158,26 +151,19 @@ void push_contacts(lua_State* L, const std::vector<fill::Contact>& contacts)
 {
     push_array(L, contacts, [&](const auto& contact) {
         lua_createtable(L, 0, 11);
-        set_string(L, "a", contact.regions[0]);
-        set_string(L, "b", contact.regions[1]);
-        set_string(L, "name", contact.pair.name);
-        set_string(L, "type", contact.pair.tied ? "tie" : "contact");
-        set_number(L, "gap", contact.gap);
-        set_number(L, "least", contact.least);
-        set_number(L, "width", contact.width);
-        set_number(L, "area", contact.area);
+        set_field(L, "a", contact.regions[0]);
+        set_field(L, "b", contact.regions[1]);
+        set_field(L, "name", contact.pair.name);
+        set_field(L, "type", contact.pair.tied ? "tie" : "contact");
+        set_field(L, "gap", contact.gap);
+        set_field(L, "least", contact.least);
+        set_field(L, "width", contact.width);
+        set_field(L, "area", contact.area);
         if (!contact.pair.groups[0].empty()) {
-            set_string(L, "slave", contact.pair.groups[0]);
-            set_string(L, "master", contact.pair.groups[1]);
+            set_field(L, "slave", contact.pair.groups[0]);
+            set_field(L, "master", contact.pair.groups[1]);
         }
-        push_array(L, contact.faces, [&](const auto& tags) {
-            lua_createtable(L, 2, 0);
-            for (const int i : {0, 1}) {
-                lua_pushinteger(L, tags[static_cast<std::size_t>(i)]);
-                lua_rawseti(L, -2, i + 1);
-            }
-        });
-        lua_setfield(L, -2, "faces");
+        set_field(L, "faces", contact.faces);
     });
 }
 
@@ -293,15 +279,14 @@ int mesh_layers(lua_State* L)
 {
     const std::vector<fill::Region>& regions = push_regions(L, hold<AssemblyMeshState>(L, 1));
     lua_createtable(L, 0, static_cast<int>(regions.size()));
-    for (const fill::Region& region : regions)
-        set_count(L, region.name.c_str(), static_cast<std::size_t>(region.layers));
+    for (const fill::Region& region : regions) set_field(L, region.name.c_str(), region.layers);
     return 1;
 }
 
 int mesh_regions(lua_State* L)
 {
     const std::vector<fill::Region>& regions = push_regions(L, hold<AssemblyMeshState>(L, 1));
-    push_array(L, regions, [&](const auto& item) { lua_pushstring(L, item.name.c_str()); });
+    push_array(L, regions, [&](const auto& item) { push(L, item.name.c_str()); });
     return 1;
 }
 
@@ -311,9 +296,9 @@ int mesh_left_out(lua_State* L)
     const auto& state = hold<AssemblyMeshState>(L, 1);
     push_array(L, state.left_out, [&](const auto& out) {
         lua_createtable(L, 0, 3);
-        set_string(L, "region", out.region);
-        set_string(L, "code", out.message.code());
-        set_string(L, "message", out.message.text());
+        set_field(L, "region", out.region);
+        set_field(L, "code", out.message.code());
+        set_field(L, "message", out.message.text());
     });
     return 1;
 }

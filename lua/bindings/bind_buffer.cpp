@@ -49,22 +49,13 @@ CellShape read_shape(lua_State* L, int index, const char* call)
     return lua_isnil(L, index) ? Shapes[0].value : read_word(L, index, {call, nullptr}, Shapes);
 }
 
-/// Push the buffer that `make` returns.
-template <class Make>
-int push_buffer(lua_State* L, const Make& make)
-{
-    auto& box = new_box<BufferState>(L);
-    guard(L, [&] { box = std::make_shared<BufferState>(make()); });
-    return 1;
-}
-
 /// buffer = mesh:coordinates(): x, y, z of every node
 template <class State>
 int coordinates(lua_State* L)
 {
     lua_settop(L, 1);
     const auto& mesh = hold_box<State>(L, 1);
-    return push_buffer(L, [&] {
+    return give_new<BufferState>(L, [&] {
         if constexpr (std::is_same_v<State, MeshState>) {
             const mesh::HexMesh& own =
                 mesh->swept.mesh; // if order 1: its memory, which the buffer keeps alive
@@ -82,7 +73,7 @@ int cells(lua_State* L)
     lua_settop(L, 2);
     const auto& mesh = hold<State>(L, 1);
     const CellShape shape = read_shape<Shapes>(L, 2, "cells");
-    return push_buffer(L, [&] { return of_rows(fill::cell_rows(mesh, shape)); });
+    return give_new<BufferState>(L, [&] { return of_rows(fill::cell_rows(mesh, shape)); });
 }
 
 /// buffer = mesh:field([metric [, kind]]): the metric's value for every row of mesh:cells(kind)
@@ -95,7 +86,8 @@ int field_values(lua_State* L)
                                                    : read_metric(L, 2, {"field", nullptr});
     const CellShape shape = read_shape<kSolids>(L, 3, "field");
     const RunContext& context = push_context(L);
-    return push_buffer(L, [&] { return of_reals(fill::cell_values(mesh, metric, shape, context)); });
+    return give_new<BufferState>(L,
+                                 [&] { return of_reals(fill::cell_values(mesh, metric, shape, context)); });
 }
 
 void push_at(lua_State* L, const BufferState& buffer, std::size_t at)

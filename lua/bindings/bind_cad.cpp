@@ -35,11 +35,11 @@ int write_cad(lua_State* L)
         written = cad::write_cad(state.volume, path, options, context);
     });
     lua_createtable(L, 0, 5);
-    set_number(L, "volume", written.volume);
-    set_number(L, "tolerance", written.tolerance);
-    set_count(L, "faces", written.faces);
-    set_count(L, "planes", written.planes);
-    set_count(L, "fitted", written.fitted);
+    set_field(L, "volume", written.volume);
+    set_field(L, "tolerance", written.tolerance);
+    set_field(L, "faces", written.faces);
+    set_field(L, "planes", written.planes);
+    set_field(L, "fitted", written.fitted);
     return 1;
 }
 

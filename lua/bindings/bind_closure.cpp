@@ -53,10 +53,10 @@ const Option<CloseOptions> kCloseOptions[] = {{"edge_shape", word<&CloseOptions:
 void push_closure(lua_State* L, const topology::Model& model, const closure::Closure& closed)
 {
     lua_createtable(L, 0, 6);
-    set_count(L, "void_edges", closed.void_edges.size());
-    set_count(L, "void_faces", closed.void_faces.size());
-    set_boolean(L, "watertight", closed.watertight);
-    set_strings(L, "algorithms", closed.algorithms);
+    set_field(L, "void_edges", closed.void_edges.size());
+    set_field(L, "void_faces", closed.void_faces.size());
+    set_field(L, "watertight", closed.watertight);
+    set_field(L, "algorithms", closed.algorithms);
     set_tags(L, "void_edge_tags", model, closed.void_edges);
     set_tags(L, "void_face_tags", model, closed.void_faces);
 }

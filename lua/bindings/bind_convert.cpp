@@ -37,8 +37,8 @@ int convert(lua_State* L)
         io::write_deck(deck, format, to, context, options);
     });
     lua_createtable(L, 0, 2);
-    set_count(L, "nodes", nodes);
-    set_count(L, "elements", elements);
+    set_field(L, "nodes", nodes);
+    set_field(L, "elements", elements);
     return 1;
 }
 

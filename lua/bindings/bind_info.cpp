@@ -20,35 +20,34 @@ void push_face_info(lua_State* L, const topology::Model& model, const Info& info
     const FaceId id(f);
     const topology::Face& face = model[id];
     lua_createtable(L, 0, 24);
-    set_whole(L, "tag", face.tag);
-    set_string(L, "name", face.name);
-    set_string(L, "kind", face.kind);
-    set_number(L, "area", topology::face_area(model, id));
-    set_vector(L, "normal", topology::mean_normal(model, id));
-    set_vector(L, "centroid", topology::face_centroid(model, id));
-    push_bounds(L, info.faces[f].box);
-    lua_setfield(L, -2, "box");
-    set_count(L, "loops", face.loops.size());
-    set_count(L, "edges", topology::edge_count(face));
-    set_boolean(L, "has_mesh", !face.given_quads.empty());
+    set_field(L, "tag", face.tag);
+    set_field(L, "name", face.name);
+    set_field(L, "kind", face.kind);
+    set_field(L, "area", topology::face_area(model, id));
+    set_field(L, "normal", topology::mean_normal(model, id));
+    set_field(L, "centroid", topology::face_centroid(model, id));
+    set_field(L, "box", std::array<Vec3, 2>{info.faces[f].box.min(), info.faces[f].box.max()});
+    set_field(L, "loops", face.loops.size());
+    set_field(L, "edges", topology::edge_count(face));
+    set_field(L, "has_mesh", !face.given_quads.empty());
     set_tags(L, "neighbours", model, info.faces[f].neighbours);
-    set_count(L, "free_edges", info.faces[f].free_edges.size());
-    set_count(L, "part", info.faces[f].part + 1);
-    set_string(L, "use", closure::use_of(info, id));
-    if (info.cavity_of[f] < info.cavities.size()) set_count(L, "cavity", info.cavity_of[f] + 1);
+    set_field(L, "free_edges", info.faces[f].free_edges.size());
+    set_field(L, "part", info.faces[f].part + 1);
+    set_field(L, "use", closure::use_of(info, id));
+    if (info.cavity_of[f] < info.cavities.size()) set_field(L, "cavity", info.cavity_of[f] + 1);
     if (const auto& round = info.round[f]) {
-        set_string(L, "fits", round->is_sphere() ? "sphere" : "cylinder");
-        set_number(L, "radius", round->radius);
-        set_vector(L, "centre", round->centre);
-        if (round->axis) set_vector(L, "axis", *round->axis);
+        set_field(L, "fits", round->is_sphere() ? "sphere" : "cylinder");
+        set_field(L, "radius", round->radius);
+        set_field(L, "centre", round->centre);
+        if (round->axis) set_field(L, "axis", *round->axis);
     }
     if (const auto& cone = info.cone[f]) {
-        set_string(L, "fits", "cone");
-        set_number(L, "half_angle", cone->half_angle);
-        set_number(L, "least_radius", cone->least_radius);
-        set_number(L, "largest_radius", cone->largest_radius);
-        set_vector(L, "apex", cone->apex);
-        set_vector(L, "axis", cone->axis);
+        set_field(L, "fits", "cone");
+        set_field(L, "half_angle", cone->half_angle);
+        set_field(L, "least_radius", cone->least_radius);
+        set_field(L, "largest_radius", cone->largest_radius);
+        set_field(L, "apex", cone->apex);
+        set_field(L, "axis", cone->axis);
     }
 }
 
@@ -56,10 +55,10 @@ void push_cavities(lua_State* L, const topology::Model& model, const std::vector
 {
     push_array(L, cavities, [&](const auto& item) {
         lua_createtable(L, 0, 4);
-        set_string(L, "kind", item.kind);
+        set_field(L, "kind", item.kind);
         set_tags(L, "faces", model, item.faces);
-        set_string(L, "class", topology::to_string(item.value));
-        set_number(L, "volume", item.volume);
+        set_field(L, "class", topology::to_string(item.value));
+        set_field(L, "volume", item.volume);
     });
 }
 
@@ -70,7 +69,7 @@ void push_free_edges(lua_State* L, const topology::Model& model, const Info& inf
     for (std::size_t f = 0; f < info.faces.size(); ++f) {
         for (const EdgeId edge : info.faces[f].free_edges) {
             push_edge(L, model, edge);
-            set_whole(L, "face", model.faces[f].tag);
+            set_field(L, "face", model.faces[f].tag);
             lua_rawseti(L, -2, to_lua(count++));
         }
     }
@@ -80,10 +79,10 @@ void push_gaps(lua_State* L, const topology::Model& model, const Info& info)
 {
     push_array(L, info.gaps, [&](const auto& gap) {
         lua_createtable(L, 0, 4);
-        set_count(L, "edge", static_cast<std::size_t>(model[gap.own].tag));
-        set_count(L, "other", static_cast<std::size_t>(model[gap.other].tag));
-        set_number(L, "width", gap.width);
-        set_number(L, "tolerance", topology::sewing_tolerance(model, gap));
+        set_field(L, "edge", model[gap.own].tag);
+        set_field(L, "other", model[gap.other].tag);
+        set_field(L, "width", gap.width);
+        set_field(L, "tolerance", topology::sewing_tolerance(model, gap));
     });
 }
 
@@ -100,18 +99,13 @@ int info(lua_State* L)
         found = closure::model_facts(model, context);
     });
     lua_createtable(L, 0, 9);
-    set_string(L, "source", model.source);
-    set_number(L, "diagonal", model.diagonal);
-    set_number(L, "tolerance", model.tolerance);
-    set_count(L, "parts", found.part_closed.size());
-    set_count(L, "closed_parts",
-              static_cast<std::size_t>(std::count(found.part_closed.begin(), found.part_closed.end(), true)));
-    lua_createtable(L, static_cast<int>(found.faces.size()), 0);
-    for (std::size_t f = 0; f < found.faces.size(); ++f) {
-        push_face_info(L, model, found, f);
-        lua_rawseti(L, -2, to_lua(f));
-    }
-    lua_setfield(L, -2, "faces");
+    set_field(L, "source", model.source);
+    set_field(L, "diagonal", model.diagonal);
+    set_field(L, "tolerance", model.tolerance);
+    set_field(L, "parts", found.part_closed.size());
+    set_field(L, "closed_parts", std::count(found.part_closed.begin(), found.part_closed.end(), true));
+    set_array(L, "faces", std::views::iota(std::size_t{0}, found.faces.size()),
+              [&](std::size_t f) { push_face_info(L, model, found, f); });
     push_free_edges(L, model, found);
     lua_setfield(L, -2, "free_edges");
     push_gaps(L, model, found);

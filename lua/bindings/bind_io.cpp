@@ -52,9 +52,7 @@ void read_with(lua_State* L, int index, const Where& where, WriteRequest& reques
         const Box<ModelState>& held = hold_model(L, at);
         guard(L, [&] { request.with.push_back(held); });
     };
-    if (lua_type(L, index) != LUA_TTABLE) return add(index, where);
-    read_array(L, index, where, expected, add);
-    if (request.with.empty()) fail_value(L, where, expected, index);
+    read_each(L, index, where, add);
 }
 
 /// A name, the number of a property, or an array of these.
@@ -70,9 +68,7 @@ void read_parts(lua_State* L, int index, const Where& where, std::vector<std::st
             fail_value(L, element, expected, at);
         guard(L, [&] { parts.push_back(name != nullptr ? std::string(name) : std::to_string(number)); });
     };
-    if (lua_type(L, index) != LUA_TTABLE) return add(index, where);
-    read_array(L, index, where, expected, add);
-    if (parts.empty()) fail_value(L, where, expected, index);
+    read_each(L, index, where, add);
 }
 
 template <class Arguments>
@@ -196,7 +192,7 @@ std::vector<std::string>& push_paths(lua_State* L, int index)
         const char* path = read_string(L, element, at);
         guard(L, [&] { paths.emplace_back(path); });
     };
-    if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0)
+    if (array_length(L, index) > 0)
         read_array(L, index, where, "", add);
     else if (lua_type(L, index) == LUA_TSTRING)
         add(index, {"load", nullptr});
@@ -216,14 +212,11 @@ int load(lua_State* L)
     arguments.limits.may_raise = !lent.sandboxed;
     RunContext& context = push_context(L);
     lua_gc(L, LUA_GCCOLLECT); // for Lua a model is a few bytes, so it would let unused models pile up
-    auto& box = new_box<ModelState>(L);
-    guard(L, [&] {
+    return give_new<ModelState>(L, [&] {
         for (const std::string& path : paths) check_input_path(lent, path);
         report_progress(context, "reading");
-        box = std::make_shared<ModelState>();
-        static_cast<io::LoadedFiles&>(*box) = cad::load_files(paths, arguments, context, arguments.limits);
+        return ModelState{cad::load_files(paths, arguments, context, arguments.limits)};
     });
-    return 1;
 }
 
 /// All solids of a deck, of any order.

@@ -47,22 +47,19 @@ const Option<MatchOptions> kMatchOptions[] = {
 void push_match(lua_State* L, const topology::Model& model, const matching::Match& match)
 {
     lua_createtable(L, 0, 5);
-    push_array(L, match.loops, [&](const auto& item) {
+    set_array(L, "loops", match.loops, [&](const auto& item) {
         lua_createtable(L, 0, 3);
-        set_whole(L, "source", to_lua(static_cast<Index>(item.source)));
-        set_whole(L, "target", to_lua(static_cast<Index>(item.target)));
-        set_boolean(L, "flipped", item.flipped);
+        set_field(L, "source", item.source + 1);
+        set_field(L, "target", item.target + 1);
+        set_field(L, "flipped", item.flipped);
     });
-    lua_setfield(L, -2, "loops");
-    push_array(L, match.vertices, [&](const auto& item) {
-        push_array(L, std::array{item.first, item.second},
-                   [&](VertexId vertex) { lua_pushinteger(L, model[vertex].tag); });
+    set_array(L, "vertices", match.vertices, [&](const auto& item) {
+        push(L, std::array{model[item.first].tag, model[item.second].tag});
     });
-    lua_setfield(L, -2, "vertices");
-    set_string(L, "method", match.method.c_str());
-    set_number(L, "confidence", match.confidence);
-    push_array(L, match.notes, [&](const Message& note) { push_text(L, [&] { return note.text(); }); });
-    lua_setfield(L, -2, "notes");
+    set_field(L, "method", match.method.c_str());
+    set_field(L, "confidence", match.confidence);
+    set_array(L, "notes", match.notes,
+              [&](const Message& note) { push_text(L, [&] { return note.text(); }); });
 }
 
 /// { loops=, vertices=, method=, confidence= } = volume:match([options])

@@ -17,10 +17,10 @@ int mesh_report(lua_State* L)
 void push_face_fidelity(lua_State* L, const sweep::FaceFidelity& face)
 {
     lua_createtable(L, 0, 4);
-    set_count(L, "quads", face.quads);
-    set_number(L, "max_distance", face.max_distance);
-    set_number(L, "mean_distance", face.mean_distance);
-    set_vector(L, "place", face.place);
+    set_field(L, "quads", face.quads);
+    set_field(L, "max_distance", face.max_distance);
+    set_field(L, "mean_distance", face.mean_distance);
+    set_field(L, "place", face.place);
 }
 
 } // namespace
@@ -28,10 +28,10 @@ void push_face_fidelity(lua_State* L, const sweep::FaceFidelity& face)
 void push_fidelity(lua_State* L, const sweep::Fidelity& fidelity)
 {
     lua_createtable(L, 0, 5);
-    set_number(L, "volume", fidelity.volume);
-    set_number(L, "sealed_volume", fidelity.sealed_volume);
-    set_number(L, "max_distance", fidelity.max_distance);
-    set_number(L, "mean_distance", fidelity.mean_distance);
+    set_field(L, "volume", fidelity.volume);
+    set_field(L, "sealed_volume", fidelity.sealed_volume);
+    set_field(L, "max_distance", fidelity.max_distance);
+    set_field(L, "mean_distance", fidelity.mean_distance);
     lua_createtable(L, 0, static_cast<int>(fidelity.faces.size()));
     for (const sweep::FaceFidelity& face : fidelity.faces) {
         if (face.made_void)
@@ -55,11 +55,7 @@ int mesh_fidelity(lua_State* L)
 /// mesh.regions: an array with the name of the one volume
 int mesh_regions(lua_State* L)
 {
-    const auto& groups = hold<MeshState>(L, 1).swept.mesh.volume_groups;
-    lua_createtable(L, 1, 0);
-    lua_pushstring(L, groups.front().c_str());
-    lua_rawseti(L, -2, 1);
-    return 1;
+    return give(L, std::array{hold<MeshState>(L, 1).swept.mesh.volume_groups.front().c_str()});
 }
 
 int mesh_to_string(lua_State* L)

@@ -312,11 +312,11 @@ int classify(lua_State* L)
     const auto& state = hold<VolumeState>(L, 1);
     const topology::Classification& found = state.classification;
     lua_createtable(L, 0, 5);
-    set_string(L, "class", class_name(state));
-    set_count(L, "free_loops", found.free_loops.size());
+    set_field(L, "class", class_name(state));
+    set_field(L, "free_loops", found.free_loops.size());
     set_tags(L, "wall_free_source", state.volume.model, found.wall_free_source);
     set_tags(L, "wall_free_target", state.volume.model, found.wall_free_target);
-    set_strings(L, "reasons", found.reasons);
+    set_field(L, "reasons", found.reasons);
     return 1;
 }
 

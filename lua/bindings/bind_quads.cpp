@@ -22,21 +22,19 @@ int make_quad_mesh(lua_State* L)
     QuadsArguments& arguments = push_quads_arguments(L, 2, model);
     RunContext& context = push_context(L);
     if (arguments.threads != 0) context.threads = arguments.threads;
-    auto& box = new_box<QuadMeshState>(L);
-    guard(L, [&] {
+    return give_new<QuadMeshState>(L, [&] {
         StageClock clock(context);
         report_progress(context, "quads");
-        box = std::make_shared<QuadMeshState>(
-            QuadMeshState{fill::quads(model->model, *arguments.faces, arguments, context), {}});
-        box->seconds = clock.seconds();
+        QuadMeshState mesh{fill::quads(model->model, *arguments.faces, arguments, context), {}};
+        mesh.seconds = clock.seconds();
+        return mesh;
     });
-    return 1;
 }
 
 int quad_mesh_regions(lua_State* L)
 {
     push_array(L, check<QuadMeshState>(L, 1).deck.regions,
-               [&](const auto& region) { lua_pushstring(L, region.name.c_str()); });
+               [&](const auto& region) { push(L, region.name.c_str()); });
     return 1;
 }
 
@@ -54,12 +52,7 @@ int quad_mesh_model(lua_State* L)
 {
     const auto& state = hold<QuadMeshState>(L, 1);
     RunContext& context = push_context(L);
-    auto& box = new_box<ModelState>(L);
-    guard(L, [&] {
-        box = std::make_shared<ModelState>();
-        box->model = fill::model_of(state, context);
-    });
-    return 1;
+    return give_new<ModelState>(L, [&] { return ModelState{{.model = fill::model_of(state, context)}}; });
 }
 
 int quad_mesh_to_string(lua_State* L)
@@ -76,12 +69,12 @@ int quad_mesh_to_string(lua_State* L)
 int push_quads_quality(lua_State* L, const fill::FilledShell& state)
 {
     lua_createtable(L, 0, 6);
-    set_number(L, "min_scaled_jacobian", state.min_scaled_jacobian);
-    set_number(L, "mean_scaled_jacobian", state.mean_scaled_jacobian);
-    set_number(L, "area", state.area);
-    set_number(L, "face_area", state.face_area);
-    set_count(L, "quads", fill::cell_count(state, CellShape::quad4));
-    set_count(L, "triangles", fill::cell_count(state, CellShape::tri3));
+    set_field(L, "min_scaled_jacobian", state.min_scaled_jacobian);
+    set_field(L, "mean_scaled_jacobian", state.mean_scaled_jacobian);
+    set_field(L, "area", state.area);
+    set_field(L, "face_area", state.face_area);
+    set_field(L, "quads", fill::cell_count(state, CellShape::quad4));
+    set_field(L, "triangles", fill::cell_count(state, CellShape::tri3));
     return 1;
 }
 

@@ -15,10 +15,10 @@ constexpr const char* kQualityMeta = "Quality";
 void push_cell(lua_State* L, std::size_t cell, int layer, const Vec3& centre, const char* name, double value)
 {
     lua_createtable(L, 0, 4);
-    set_whole(L, "cell", to_lua(cell));
-    if (layer >= 0) set_whole(L, "layer", to_lua(static_cast<Index>(layer)));
-    set_vector(L, "centre", centre);
-    set_number(L, name, value);
+    set_field(L, "cell", to_lua(cell));
+    if (layer >= 0) set_field(L, "layer", to_lua(static_cast<Index>(layer)));
+    set_field(L, "centre", centre);
+    set_field(L, name, value);
 }
 
 /// The source of the Quality at index 1; its userdata is left on the stack.
@@ -49,19 +49,15 @@ void push_metric(lua_State* L, const quality::MetricSummary& summary)
 {
     const quality::MetricInfo& info = quality::metric_info(summary.metric);
     lua_createtable(L, 0, 10);
-    set_string(L, "name", info.name);
-    set_number(L, "min", summary.min);
-    set_number(L, "mean", summary.mean);
-    set_number(L, "max", summary.max);
-    set_number(L, "deviation", summary.deviation);
-    set_count(L, "cells", summary.cells);
-    set_count(L, "outside", summary.outside);
-    set_number(L, "outside_share", summary.outside_share);
-    if (info.acceptable) {
-        push_array(L, std::array{info.acceptable->low, info.acceptable->high},
-                   [&](double bound) { lua_pushnumber(L, bound); });
-        lua_setfield(L, -2, "acceptable");
-    }
+    set_field(L, "name", info.name);
+    set_field(L, "min", summary.min);
+    set_field(L, "mean", summary.mean);
+    set_field(L, "max", summary.max);
+    set_field(L, "deviation", summary.deviation);
+    set_field(L, "cells", summary.cells);
+    set_field(L, "outside", summary.outside);
+    set_field(L, "outside_share", summary.outside_share);
+    if (info.acceptable) set_field(L, "acceptable", std::array{info.acceptable->low, info.acceptable->high});
     push_cell(L, summary.worst, summary.layer, summary.centre, "value", summary.value);
     lua_setfield(L, -2, "worst");
 }
@@ -178,28 +174,26 @@ void push_quality(lua_State* L, int source)
 {
     const quality::Quality& q = temporary_at<QualitySource>(L, source).quality;
     lua_createtable(L, 0, 13);
-    set_number(L, "min_scaled_jacobian", q.min_scaled_jacobian);
-    set_number(L, "mean_scaled_jacobian", q.mean_scaled_jacobian);
-    set_count(L, "inverted", q.inverted);
-    set_count(L, "uncertified", q.uncertified);
-    set_boolean(L, "certified", q.uncertified == 0 && q.inverted == 0);
-    set_count(L, "hexes", q.hexes);
-    set_count(L, "wedges", q.wedges);
-    set_count(L, "pyramids", q.pyramids);
-    set_count(L, "tets", q.tets);
+    set_field(L, "min_scaled_jacobian", q.min_scaled_jacobian);
+    set_field(L, "mean_scaled_jacobian", q.mean_scaled_jacobian);
+    set_field(L, "inverted", q.inverted);
+    set_field(L, "uncertified", q.uncertified);
+    set_field(L, "certified", q.uncertified == 0 && q.inverted == 0);
+    set_field(L, "hexes", q.hexes);
+    set_field(L, "wedges", q.wedges);
+    set_field(L, "pyramids", q.pyramids);
+    set_field(L, "tets", q.tets);
     lua_createtable(L, 0, 4);
     const std::pair<const char*, std::size_t> kinds[] = {
         {"hexes", q.hexes}, {"wedges", q.wedges}, {"pyramids", q.pyramids}, {"tets", q.tets}};
     for (std::size_t k = 0; k < std::size(kinds); ++k)
-        if (kinds[k].second > 0) set_number(L, kinds[k].first, q.least_by_kind[k]);
+        if (kinds[k].second > 0) set_field(L, kinds[k].first, q.least_by_kind[k]);
     lua_setfield(L, -2, "least");
-    set_number(L, "volume", q.volume);
-    push_array(L, q.worst, [&](const quality::WorstCell& worst) {
+    set_field(L, "volume", q.volume);
+    set_array(L, "worst", q.worst, [&](const quality::WorstCell& worst) {
         push_cell(L, worst.cell, worst.layer, worst.centre, "scaled_jacobian", worst.scaled_jacobian);
     });
-    lua_setfield(L, -2, "worst");
-    push_array(L, q.histogram, [&](const auto& item) { lua_pushinteger(L, static_cast<lua_Integer>(item)); });
-    lua_setfield(L, -2, "histogram");
+    set_field(L, "histogram", q.histogram);
 
     luaL_setmetatable(L, kQualityMeta);
     luaL_getmetafield(L, -1, "sources");
@@ -216,10 +210,10 @@ void bind_quality(lua_State* L)
         L, {{"__tostring", quality_to_string}, {"__index", quality_index}, {"__pairs", quality_pairs}});
     lua_newtable(L);
     lua_createtable(L, 0, 1);
-    set_string(L, "__mode", "k");
+    set_field(L, "__mode", "k");
     lua_setmetatable(L, -2);
     lua_setfield(L, -2, "sources");
-    set_string(L, "__metatable", "Quality");
+    set_field(L, "__metatable", "Quality");
     lua_pop(L, 1);
     add_methods<MeshState>(L, {{"quality", mesh_quality}});
     add_methods<AssemblyMeshState>(L, {{"quality", assembly_quality}});

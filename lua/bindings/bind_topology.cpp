@@ -68,13 +68,7 @@ int new_model(lua_State* L)
     lua_settop(L, 1);
     auto& added = temporary<healing::AddedFaces>(L);
     read_options(L, 1, "model", kModelOptions, added);
-    auto& box = new_box<ModelState>(L);
-    guard(L, [&] {
-        box = std::make_shared<ModelState>();
-        box->hand_made = true;
-        box->added = added;
-    });
-    return 1;
+    return give_new<ModelState>(L, [&] { return ModelState{.hand_made = true, .added = added}; });
 }
 
 /// face = model:add_face { name=, points=, cells= [, keep_mesh=] }
@@ -179,8 +173,7 @@ int model_regions(lua_State* L)
         for (topology::Body& body : topology::bodies(state->model, context))
             names.push_back(std::move(body.name));
     });
-    push_array(L, names, [L](const std::string& name) { give(L, std::string_view(name)); });
-    return 1;
+    return give(L, names);
 }
 
 // --- Face -----------------------------------------------------------------------------------------------
@@ -222,8 +215,7 @@ template <Vec3 (*Of)(const topology::Model&, FaceId)>
 int face_vector(lua_State* L)
 {
     const HeldFace held = hold_face(L);
-    push_vector(L, Of(held.model, held.face));
-    return 1;
+    return give(L, Of(held.model, held.face));
 }
 
 /// Push a property of the sphere or cylinder that fits a face's facets; nil if none fits.
@@ -248,7 +240,7 @@ int face_radius(lua_State* L)
 int face_axis(lua_State* L)
 {
     return fitted(L, [L](const topology::RoundShape& shape) {
-        if (shape.axis) push_vector(L, *shape.axis);
+        if (shape.axis) push(L, *shape.axis);
         return shape.axis.has_value();
     });
 }
@@ -257,8 +249,8 @@ int face_axis(lua_State* L)
 int face_box(lua_State* L)
 {
     const HeldFace held = hold_face(L);
-    push_bounds(L, topology::box_of(held.model, held.face));
-    return 1;
+    const auto box = topology::box_of(held.model, held.face);
+    return give(L, std::array<Vec3, 2>{box.min(), box.max()});
 }
 
 /// Tags of the faces that share an edge with it.
@@ -270,8 +262,7 @@ int face_neighbours(lua_State* L)
         const auto facts = topology::face_facts(held.model);
         for (const FaceId other : facts[held.face.index()].neighbours) tags.push_back(held.model[other].tag);
     });
-    push_array(L, tags, [&](const auto& item) { lua_pushinteger(L, item); });
-    return 1;
+    return give(L, tags);
 }
 
 int face_to_string(lua_State* L)

@@ -3,6 +3,7 @@
 
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
+#include "bindings/push.h"
 #include "bindings/unexpected.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <functional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <lacuna/core/shared/list_text.h>
@@ -47,10 +49,8 @@ void set_where(lua_State* L)
     for (int level = 1; lua_getstack(L, level, &frame); ++level) {
         lua_getinfo(L, "Sl", &frame);
         if (frame.currentline > 0 && std::strcmp(frame.source, kEmbeddedSource) != 0) {
-            lua_pushstring(L, frame.short_src);
-            lua_setfield(L, -2, "file");
-            lua_pushinteger(L, frame.currentline);
-            lua_setfield(L, -2, "line");
+            set_field(L, "file", frame.short_src);
+            set_field(L, "line", frame.currentline);
             return;
         }
     }
@@ -128,50 +128,29 @@ void push_error_meta(lua_State* L)
     lua_remove(L, -2);
     lua_pushcclosure(L, error_index, 1);
     lua_setfield(L, -2, "__index");
-    lua_pushliteral(L, "an error of lacuna");
-    lua_setfield(L, -2, "__metatable");
+    set_field(L, "__metatable", "an error of lacuna");
 }
 
-/// Push { { kind =, tag = }, ... }.
-void push_entities(lua_State* L, const std::vector<NamedEntity>& entities)
-{
-    lua_createtable(L, static_cast<int>(entities.size()), 0);
-    for (std::size_t i = 0; i < entities.size(); ++i) {
-        lua_createtable(L, 0, 2);
-        lua_pushlstring(L, entities[i].kind.data(), entities[i].kind.size());
-        lua_setfield(L, -2, "kind");
-        lua_pushinteger(L, entities[i].tag);
-        lua_setfield(L, -2, "tag");
-        lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
-    }
-}
-
-/// Push { message =, code =, entities = }.
+/// Push { message =, code =, entities = { { kind =, tag = }, ... } }.
 void push_words(lua_State* L, const std::string& message, const std::string& code,
                 const std::vector<NamedEntity>& entities)
 {
     lua_createtable(L, 0, 9);
-    lua_pushlstring(L, message.data(), message.size());
-    lua_setfield(L, -2, "message");
-    lua_pushlstring(L, code.data(), code.size());
-    lua_setfield(L, -2, "code");
-    push_entities(L, entities);
-    lua_setfield(L, -2, "entities");
+    set_field(L, "message", message);
+    set_field(L, "code", code);
+    set_array(L, "entities", entities, [L](const NamedEntity& entity) {
+        lua_createtable(L, 0, 2);
+        set_field(L, "kind", entity.kind);
+        set_field(L, "tag", entity.tag);
+    });
 }
 
-/// Push an array of numbers and texts.
-void push_values(lua_State* L, const std::vector<MessageValue>& values)
+/// Set a field to an array of numbers and texts.
+void set_values(lua_State* L, const char* key, const std::vector<MessageValue>& values)
 {
-    lua_createtable(L, static_cast<int>(values.size()), 0);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (const auto* number = std::get_if<long long>(&values[i]))
-            lua_pushinteger(L, *number);
-        else if (const auto* real = std::get_if<double>(&values[i]))
-            lua_pushnumber(L, *real);
-        else
-            lua_pushstring(L, std::get<std::string>(values[i]).c_str());
-        lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
-    }
+    set_array(L, key, values, [L](const MessageValue& value) {
+        std::visit([L](const auto& held) { push(L, held); }, value);
+    });
 }
 
 // --- classes ------------------------------------------------------------------------------------------
@@ -187,11 +166,10 @@ const char* push_sorted_names(lua_State* L, int index)
         lua_pop(L, 1);
         if (std::strncmp(name, "__", 2) != 0) guard(L, [&] { names.emplace_back(name); });
     }
-    push_text(L, [&] {
+    return push_text(L, [&] {
         std::sort(names.begin(), names.end());
         return full_list(names, std::identity());
     });
-    return lua_tostring(L, -1);
 }
 
 /// Upvalues: 1 the class name, 2 its methods, 3 its fields.
@@ -380,20 +358,12 @@ void raise(lua_State* L, const Failure& failure)
         lua_error(L);
     }
     push_words(L, failure.message, failure.code, failure.entities);
-    lua_createtable(L, static_cast<int>(failure.attempts.size()), 0);
-    for (std::size_t i = 0; i < failure.attempts.size(); ++i) {
-        push_words(L, failure.attempts[i].text, failure.attempts[i].code, failure.attempts[i].entities);
-        lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
-    }
-    lua_setfield(L, -2, "attempts");
-    push_values(L, failure.found);
-    lua_setfield(L, -2, "found");
-    push_values(L, failure.needed);
-    lua_setfield(L, -2, "needed");
-    if (!failure.remedy.empty()) {
-        lua_pushlstring(L, failure.remedy.data(), failure.remedy.size());
-        lua_setfield(L, -2, "remedy");
-    }
+    set_array(L, "attempts", failure.attempts, [L](const MessageParts& attempt) {
+        push_words(L, attempt.text, attempt.code, attempt.entities);
+    });
+    set_values(L, "found", failure.found);
+    set_values(L, "needed", failure.needed);
+    if (!failure.remedy.empty()) set_field(L, "remedy", failure.remedy);
     set_where(L);
     push_error_meta(L);
     lua_setmetatable(L, -2);
@@ -423,8 +393,7 @@ void make_class(lua_State* L, const char* name, Functions meta, Functions fields
     luaL_newmetatable(L, name);
     set_functions(L, meta);
     set_functions(L, {{"__gc", release_living}, {"__close", release_living}});
-    lua_pushliteral(L, "a class of lacuna");
-    lua_setfield(L, -2, "__metatable");
+    set_field(L, "__metatable", "a class of lacuna");
 
     lua_pushstring(L, name);
     lua_newtable(L);

@@ -188,14 +188,15 @@ void guard(lua_State* L, Body&& body)
     lua_pop(L, 1);
 }
 
-/// Push the string that `make` returns.
+/// Push the string that `make` returns. @return  it, as Lua holds it
 template <class Make>
-void push_text(lua_State* L, Make&& make)
+const char* push_text(lua_State* L, Make&& make)
 {
     std::string& text = temporary<std::string>(L);
     guard(L, [&] { text = make(); });
     lua_pushlstring(L, text.data(), text.size());
     lua_remove(L, -2);
+    return lua_tostring(L, -1);
 }
 
 // --- boxes: userdata that share a kernel object -------------------------------------------------------
@@ -227,6 +228,15 @@ Box<T>& new_box(lua_State* L)
 {
     luaL_getmetatable(L, kClassName<T>);
     return push_held<Box<T>>(L);
+}
+
+/// Push a box of what `make` returns. @return  the number of results
+template <class T, class Make>
+int give_new(lua_State* L, const Make& make)
+{
+    Box<T>& box = new_box<T>(L);
+    guard(L, [&] { box = std::make_shared<T>(make()); });
+    return 1;
 }
 
 /// The box at `index`; null if there is something else.

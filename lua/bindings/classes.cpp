@@ -3,7 +3,6 @@
 
 #include "bindings/lacuna_lua.h"
 
-#include <array>
 #include <utility>
 
 namespace lacuna::lua {
@@ -71,106 +70,40 @@ RunContext& push_context(lua_State* L)
     return context;
 }
 
-void push_vector(lua_State* L, const Vec3& vector)
-{
-    push_array(L, std::array{vector.x(), vector.y(), vector.z()}, [L](double x) { lua_pushnumber(L, x); });
-}
-
-void push_bounds(lua_State* L, const Eigen::AlignedBox3d& box)
-{
-    push_array(L, std::array<Vec3, 2>{box.min(), box.max()}, [L](const Vec3& end) { push_vector(L, end); });
-}
-
-void set_vector(lua_State* L, const char* key, const Vec3& vector)
-{
-    push_vector(L, vector);
-    lua_setfield(L, -2, key);
-}
-
-void set_number(lua_State* L, const char* key, double value)
-{
-    lua_pushnumber(L, value);
-    lua_setfield(L, -2, key);
-}
-
-void set_whole(lua_State* L, const char* key, lua_Integer value)
-{
-    lua_pushinteger(L, value);
-    lua_setfield(L, -2, key);
-}
-
-void set_count(lua_State* L, const char* key, std::size_t value)
-{
-    set_whole(L, key, static_cast<lua_Integer>(value));
-}
-
-void set_boolean(lua_State* L, const char* key, bool value)
-{
-    lua_pushboolean(L, value);
-    lua_setfield(L, -2, key);
-}
-
-void set_string(lua_State* L, const char* key, std::string_view value)
-{
-    lua_pushlstring(L, value.data(), value.size());
-    lua_setfield(L, -2, key);
-}
-
 void push_edge(lua_State* L, const topology::Model& model, EdgeId edge)
 {
     lua_createtable(L, 0, 5);
-    set_whole(L, "tag", model[edge].tag);
-    set_whole(L, "from", model[model[edge].from].tag);
-    set_whole(L, "to", model[model[edge].to].tag);
-    set_number(L, "length", topology::edge_length(model, edge));
-}
-
-namespace {
-
-void push_strings(lua_State* L, const std::vector<std::string>& values)
-{
-    push_array(L, values, [&](const auto& item) { lua_pushlstring(L, item.data(), item.size()); });
-}
-
-} // namespace
-
-void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values)
-{
-    push_strings(L, values);
-    lua_setfield(L, -2, key);
+    set_field(L, "tag", model[edge].tag);
+    set_field(L, "from", model[model[edge].from].tag);
+    set_field(L, "to", model[model[edge].to].tag);
+    set_field(L, "length", topology::edge_length(model, edge));
 }
 
 void push_face(lua_State* L, const Box<ModelState>& model, FaceId face)
 {
-    auto& box = new_box<FaceHandle>(L);
-    guard(L, [&] { box = std::make_shared<FaceHandle>(FaceHandle{model, face, model->moves.size()}); });
+    give_new<FaceHandle>(L, [&] { return FaceHandle{model, face, model->moves.size()}; });
 }
 
 void push_groups(lua_State* L, const std::vector<fill::Group>& groups)
 {
     push_array(L, groups, [&](const auto& item) {
         lua_createtable(L, 0, 3);
-        set_string(L, "name", item.name.c_str());
-        set_count(L, "dim", static_cast<std::size_t>(item.dim));
-        set_count(L, "cells", item.cells);
+        set_field(L, "name", item.name.c_str());
+        set_field(L, "dim", static_cast<std::size_t>(item.dim));
+        set_field(L, "cells", item.cells);
     });
 }
 
 void push_filled(lua_State* L, fill::Filled& filled, const StageSeconds& seconds)
 {
-    if (auto* parts = std::get_if<fill::FilledParts>(&filled.mesh)) {
-        auto& box = new_box<AssemblyMeshState>(L);
-        guard(L, [&] {
-            box = std::make_shared<AssemblyMeshState>(
-                AssemblyMeshState{std::move(*parts), std::nullopt, seconds});
+    if (auto* parts = std::get_if<fill::FilledParts>(&filled.mesh))
+        give_new<AssemblyMeshState>(L, [&] {
+            return AssemblyMeshState{std::move(*parts), std::nullopt, seconds};
         });
-        return;
-    }
-    auto& box = new_box<MeshState>(L);
-    guard(L, [&] {
-        box = std::make_shared<MeshState>(
-            MeshState{std::move(std::get<fill::FilledVolume>(filled.mesh)), seconds});
-    });
+    else
+        give_new<MeshState>(L, [&] {
+            return MeshState{std::move(std::get<fill::FilledVolume>(filled.mesh)), seconds};
+        });
 }
 
 namespace {
@@ -196,14 +129,13 @@ int report_to_string(lua_State* L)
 
 void push_report(lua_State* L, const std::vector<std::string>& lines, const StageSeconds& seconds)
 {
-    push_strings(L, lines);
+    push(L, lines);
     lua_createtable(L, 0, static_cast<int>(seconds.size()));
-    for (const auto& [stage, taken] : seconds) set_number(L, stage.c_str(), taken);
+    for (const auto& [stage, taken] : seconds) set_field(L, stage.c_str(), taken);
     lua_setfield(L, -2, "seconds");
     if (luaL_newmetatable(L, "Report")) {
-        lua_pushcfunction(L, report_to_string);
-        lua_setfield(L, -2, "__tostring");
-        set_string(L, "__metatable", "Report");
+        set_functions(L, {{"__tostring", report_to_string}});
+        set_field(L, "__metatable", "Report");
     }
     lua_setmetatable(L, -2);
 }

@@ -4,6 +4,7 @@
 // The C++ objects behind Lua's classes, and functions that push values to Lua.
 
 #include "bindings/box.h"
+#include "bindings/push.h"
 #include "bindings/stage_clock.h"
 
 #include <lacuna/core/run_context.h>
@@ -135,15 +136,6 @@ RunContext& push_context(lua_State* L);
 
 // --- pushing ------------------------------------------------------------------------------------------
 
-void push_vector(lua_State* L, const Vec3& vector);                 ///< {x, y, z}
-void set_vector(lua_State* L, const char* key, const Vec3& vector); ///< into the table on top
-void set_number(lua_State* L, const char* key, double value);
-void set_whole(lua_State* L, const char* key, lua_Integer value);
-void set_count(lua_State* L, const char* key, std::size_t value);
-void set_boolean(lua_State* L, const char* key, bool value);
-void set_string(lua_State* L, const char* key, std::string_view value); ///< any bytes
-void push_bounds(lua_State* L, const Eigen::AlignedBox3d& box);         ///< { {x, y, z}, {x, y, z} }
-void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values);
 /// The option `contacts` of the table at `index`, as a temporary.
 fill::ContactRequest& push_contact_request(lua_State* L, int index);
 /// Near misses of an assembly, as `near_misses` of the report on top of the stack.
@@ -157,43 +149,6 @@ void push_report(lua_State* L, const std::vector<std::string>& lines, const Stag
 /// The number at index 2, from 1 to `count`, as an index from 0; raises an error for other values.
 std::size_t check_number(lua_State* L, const char* call, std::size_t count);
 
-/// Lua numbers from 1, the kernel from 0; only these functions convert.
-inline lua_Integer to_lua(std::size_t index) { return static_cast<lua_Integer>(index) + 1; }
-inline lua_Integer to_lua(Index index) { return static_cast<lua_Integer>(index) + 1; }
-inline std::size_t from_lua(lua_Integer number) { return static_cast<std::size_t>(number - 1); }
-
-/// Push an array of the values that `push` leaves on the stack, one for each item. Items are read one at a
-/// time, because a finalizer may replace them.
-template <class Items, class Push>
-void push_array(lua_State* L, const Items& items, const Push& push)
-{
-    lua_createtable(L, static_cast<int>(items.size()), 0);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        push(items[i]);
-        lua_rawseti(L, -2, to_lua(i));
-    }
-}
-/// Push the result of a Lua function. @return  the number of results
-inline int give(lua_State* L, double value)
-{
-    lua_pushnumber(L, value);
-    return 1;
-}
-inline int give(lua_State* L, std::integral auto value)
-{
-    lua_pushinteger(L, static_cast<lua_Integer>(value));
-    return 1;
-}
-inline int give(lua_State* L, bool value)
-{
-    lua_pushboolean(L, value);
-    return 1;
-}
-inline int give(lua_State* L, std::string_view value)
-{
-    lua_pushlstring(L, value.data(), value.size());
-    return 1;
-}
 /// A field whose value `Get` takes from the object.
 template <class State, auto Get>
 int field(lua_State* L)
@@ -208,8 +163,7 @@ void push_edge(lua_State* L, const topology::Model& model, EdgeId edge);
 template <class Id>
 void set_tags(lua_State* L, const char* key, const topology::Model& model, const std::vector<Id>& ids)
 {
-    push_array(L, ids, [&](const auto& id) { lua_pushinteger(L, model[id].tag); });
-    lua_setfield(L, -2, key);
+    set_array(L, key, ids, [&](const auto& id) { push(L, model[id].tag); });
 }
 
 // --- fields and methods that several kinds of meshes share ------------------------------------------

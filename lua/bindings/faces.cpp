@@ -145,7 +145,7 @@ void append(lua_State* L, const Where& where, const topology::Model& model, std:
 /// Push " (did you mean ...?)" with the nearest name of a face; an empty text if no name is near.
 const char* push_meant_name(lua_State* L, const topology::Model& model, const char* wanted)
 {
-    push_text(L, [&] {
+    return push_text(L, [&] {
         std::string best;
         std::size_t least = std::strlen(wanted) / 2 + 1; // fewer letters than this may differ
         for (const topology::Face& face : model.faces) {
@@ -156,19 +156,17 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
         }
         return best.empty() ? best : " (did you mean \"" + best + "\"?)";
     });
-    return lua_tostring(L, -1);
 }
 
 /// Push the reason why there is no face with a tag: the note of loading about it, if there is one.
 const char* push_why_missing(lua_State* L, const topology::Model& model, int tag)
 {
-    push_text(L, [&] {
+    return push_text(L, [&] {
         const auto note = std::ranges::find_if(model.notes, [&](const Message& of) {
             return !of.entities().empty() && of.entities().front() == NamedEntity{"face", tag};
         });
         return note == model.notes.end() ? std::string("is not there") : "was not read: " + note->text();
     });
-    return lua_tostring(L, -1);
 }
 
 void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelState>& state,
@@ -352,9 +350,8 @@ void mark_found_nothing(lua_State* L, int selector)
 
 const char* push_names(lua_State* L, const topology::Model& model, const std::vector<FaceId>& faces)
 {
-    push_text(
+    return push_text(
         L, [&] { return faces.empty() ? "no faces" : formatted("{}", topology::entities_of(model, faces)); });
-    return lua_tostring(L, -1);
 }
 
 } // namespace lacuna::lua

@@ -98,11 +98,7 @@ int triangles_from_lua(lua_State* L)
         found = geometry::triangulate(points, loops, options, context);
     });
     push_array(L, found.triangles, [&](const auto& item) {
-        lua_createtable(L, 3, 0);
-        for (std::size_t k = 0; k < 3; ++k) {
-            lua_pushinteger(L, to_lua(index(item[k])));
-            lua_rawseti(L, -2, to_lua(k));
-        }
+        push_array(L, item, [L](const auto& corner) { push(L, to_lua(index(corner))); });
     });
     return 1;
 }
@@ -143,11 +139,9 @@ extern "C" int luaopen_lacuna(lua_State* L)
     luaL_checkversion(L);
     lua_newtable(L);
     for (const auto bind : kBinders) bind(L);
-    lua_pushliteral(L, LACUNA_VERSION);
-    lua_setfield(L, -2, "version");
+    set_field(L, "version", LACUNA_VERSION);
     lua_createtable(L, 0, 1);
-    lua_pushcfunction(L, index_module);
-    lua_setfield(L, -2, "__index");
+    set_functions(L, {{"__index", index_module}});
     lua_setmetatable(L, -2);
     for (std::size_t i = 0; i < kEmbeddedChunkCount; ++i) run_embedded(L, kEmbeddedChunks[i]);
     return 1;

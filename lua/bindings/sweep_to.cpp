@@ -49,14 +49,14 @@ void set_numbers(lua_State* L, const fill::Filled& filled)
         streamed = streamed && part.layers.has_value();
     }
     if (const auto* parts = std::get_if<fill::FilledParts>(&filled.mesh)) nodes = parts->swept.nodes;
-    set_count(L, "nodes", nodes);
-    set_count(L, "hexes", hexes);
-    set_count(L, "wedges", wedges);
-    set_count(L, "layers", static_cast<std::size_t>(layers));
-    set_number(L, "min_scaled_jacobian", least);
-    set_boolean(L, "streamed", streamed);
+    set_field(L, "nodes", nodes);
+    set_field(L, "hexes", hexes);
+    set_field(L, "wedges", wedges);
+    set_field(L, "layers", layers);
+    set_field(L, "min_scaled_jacobian", least);
+    set_field(L, "streamed", streamed);
     const Crew* const crew = host(L).crew;
-    set_count(L, "processes", static_cast<std::size_t>(streamed && crew != nullptr ? crew->size : 1));
+    set_field(L, "processes", streamed && crew != nullptr ? crew->size : 1);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "host/interpreter_state.h"
 
 #include "bindings/box.h"
+#include "bindings/push.h"
 #include "host/sandbox.h"
 
 #include <charconv>
@@ -347,57 +348,50 @@ Value Interpreter::call(int arguments)
 
 Value Interpreter::run_file(const std::string& path, const std::vector<std::string>& words)
 {
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) {
+    const State::Visit self(*state_);
+    self->protect([&](lua_State* L) {
         lua_pushboolean(L, 0);
         lua_setfield(L, LUA_REGISTRYINDEX, lua::kUsedParams);
-        lua_createtable(L, static_cast<int>(words.size()), 2);
+        lua::push(L, words);
         lua_pushstring(L, path.c_str());
         lua_rawseti(L, -2, 0);
         lua_pushliteral(L, "lacuna");
         lua_rawseti(L, -2, -1);
-        for (std::size_t i = 0; i < words.size(); ++i) {
-            lua_pushlstring(L, words[i].data(), words[i].size());
-            lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
-        }
         lua_setglobal(L, "arg");
     });
     int loaded = LUA_OK;
-    self.protect([&](lua_State* L) {
+    self->protect([&](lua_State* L) {
         // Bytecode can crash the interpreter, so the sandbox loads text only.
-        const char* const mode = self.options.sandbox ? "t" : nullptr;
+        const char* const mode = self->options.sandbox ? "t" : nullptr;
         loaded = luaL_loadfilex(L, path == "-" ? nullptr : path.c_str(), mode);
         if (loaded != LUA_OK) return;
         luaL_checkstack(L, static_cast<int>(words.size()) + LUA_MINSTACK, "too many words");
         for (const std::string& word : words) lua_pushlstring(L, word.data(), word.size());
     });
-    if (loaded != LUA_OK) self.fail(loaded);
-    self.call(static_cast<int>(words.size()), 1);
-    return self.value_at(-1);
+    if (loaded != LUA_OK) self->fail(loaded);
+    self->call(static_cast<int>(words.size()), 1);
+    return self->value_at(-1);
 }
 
 Value Interpreter::run_string(std::string_view text, const std::string& name)
 {
-    State& self = *state_;
-    const State::Visit visit(self);
+    const State::Visit self(*state_);
     const std::string chunk = "=" + name;
     int loaded = LUA_OK;
-    self.protect([&](lua_State* L) {
-        const char* const mode = self.options.sandbox ? "t" : nullptr;
+    self->protect([&](lua_State* L) {
+        const char* const mode = self->options.sandbox ? "t" : nullptr;
         loaded = luaL_loadbufferx(L, text.data(), text.size(), chunk.c_str(), mode);
     });
-    if (loaded != LUA_OK) self.fail(loaded);
-    self.call(0, 1);
-    return self.value_at(-1);
+    if (loaded != LUA_OK) self->fail(loaded);
+    self->call(0, 1);
+    return self->value_at(-1);
 }
 
 bool Interpreter::words_used()
 {
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([](lua_State* L) { lua_getfield(L, LUA_REGISTRYINDEX, lua::kUsedParams); });
-    return lua_toboolean(self.lua, -1) != 0;
+    const State::Visit self(*state_);
+    self->protect([](lua_State* L) { lua_getfield(L, LUA_REGISTRYINDEX, lua::kUsedParams); });
+    return lua_toboolean(self->lua, -1) != 0;
 }
 
 } // namespace lacuna

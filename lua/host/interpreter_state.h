@@ -27,13 +27,14 @@ struct Interpreter::State {
     /// @throw InvalidInput "lua.busy"  a recipe runs.
     class Visit {
     public:
-        explicit Visit(const State& state) : lua_(state.lua), top_(lua_gettop(lua_)) { state.check_free(); }
-        ~Visit() { lua_settop(lua_, top_); }
+        explicit Visit(State& state) : state_(state), top_(lua_gettop(state.lua)) { state.check_free(); }
+        ~Visit() { lua_settop(state_.lua, top_); }
         Visit(const Visit&) = delete;
         Visit& operator=(const Visit&) = delete;
+        State* operator->() const { return &state_; }
 
     private:
-        lua_State* lua_;
+        State& state_;
         int top_;
     };
 

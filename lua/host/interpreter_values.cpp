@@ -5,11 +5,12 @@
 
 #include "bindings/bind_buffer.h"
 #include "bindings/box.h"
+#include "bindings/push.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <limits>
+#include <span>
 
 namespace lacuna {
 
@@ -49,45 +50,28 @@ void push_path(lua_State* L, const char* path, bool owner)
 
 void Interpreter::set(const std::string& path, const Value& value)
 {
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) {
+    const State::Visit self(*state_);
+    self->protect([&](lua_State* L) {
         push_path(L, path.c_str(), true);
-        if (const auto* boolean = std::get_if<bool>(&value))
-            lua_pushboolean(L, *boolean);
-        else if (const auto* integer = std::get_if<std::int64_t>(&value))
-            lua_pushinteger(L, *integer);
-        else if (const auto* number = std::get_if<double>(&value))
-            lua_pushnumber(L, *number);
-        else if (const auto* text = std::get_if<std::string>(&value))
-            lua_pushlstring(L, text->data(), text->size());
-        else
-            lua_pushnil(L);
+        std::visit([L](const auto& held) { lua::push(L, held); }, value);
         lua_settable(L, -3);
     });
 }
 
 void Interpreter::set_numbers(const std::string& path, const double* numbers, std::size_t count)
 {
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) {
+    const State::Visit self(*state_);
+    self->protect([&](lua_State* L) {
         push_path(L, path.c_str(), true);
-        const std::size_t room = std::min<std::size_t>(count, std::numeric_limits<int>::max());
-        lua_createtable(L, static_cast<int>(room), 0);
-        for (std::size_t i = 0; i < count; ++i) {
-            lua_pushnumber(L, numbers[i]);
-            lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
-        }
+        lua::push(L, std::span(numbers, count));
         lua_settable(L, -3);
     });
 }
 
 void Interpreter::set_function(const std::string& path, HostFunction function, void* user)
 {
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) {
+    const State::Visit self(*state_);
+    self->protect([&](lua_State* L) {
         push_path(L, path.c_str(), true);
         lua_pushlightuserdata(L, reinterpret_cast<void*>(function));
         lua_pushlightuserdata(L, user);
@@ -99,29 +83,26 @@ void Interpreter::set_function(const std::string& path, HostFunction function, v
 
 Value Interpreter::get(const std::string& path)
 {
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) { push_path(L, path.c_str(), false); });
-    return self.value_at(-1);
+    const State::Visit self(*state_);
+    self->protect([&](lua_State* L) { push_path(L, path.c_str(), false); });
+    return self->value_at(-1);
 }
 
 std::string Interpreter::type_of(const std::string& path)
 {
-    State& self = *state_;
-    const State::Visit visit(self);
-    self.protect([&](lua_State* L) {
+    const State::Visit self(*state_);
+    self->protect([&](lua_State* L) {
         push_path(L, path.c_str(), false);
         if (luaL_getmetafield(L, -1, "__name") != LUA_TSTRING) lua_pushstring(L, luaL_typename(L, 1));
     });
-    return text_at(self.lua, -1);
+    return text_at(self->lua, -1);
 }
 
 BufferView Interpreter::buffer(const std::string& path)
 {
-    State& self = *state_;
-    const State::Visit visit(self);
+    const State::Visit self(*state_);
     BufferView view;
-    self.protect([&](lua_State* L) {
+    self->protect([&](lua_State* L) {
         push_path(L, path.c_str(), false);
         const auto* box = lua::test_box<lua::BufferState>(L, -1);
         if (!box || !*box)
@@ -138,7 +119,6 @@ BufferView Interpreter::buffer(const std::string& path)
 
 std::vector<double> Interpreter::get_numbers(const std::string& path)
 {
-    State& self = *state_;
     if (type_of(path) == "Buffer") {
         const BufferView view = buffer(path);
         std::vector<double> numbers(view.rows * view.columns);
@@ -148,9 +128,9 @@ std::vector<double> Interpreter::get_numbers(const std::string& path)
             std::copy_n(static_cast<const std::int32_t*>(view.data), numbers.size(), numbers.begin());
         return numbers;
     }
-    const State::Visit visit(self);
+    const State::Visit self(*state_);
     std::size_t count = 0;
-    self.protect([&](lua_State* L) {
+    self->protect([&](lua_State* L) {
         push_path(L, path.c_str(), false);
         if (!lua_istable(L, -1))
             lua::fail_as(L, "lua.no_value", "'%s' must be an array of numbers or a Buffer, found %s",
@@ -158,7 +138,7 @@ std::vector<double> Interpreter::get_numbers(const std::string& path)
         count = lua_rawlen(L, -1);
     });
     std::vector<double> numbers(count);
-    self.protect([&](lua_State* L) {
+    self->protect([&](lua_State* L) {
         push_path(L, path.c_str(), false);
         for (std::size_t i = 0; i < count; ++i) {
             if (lua_rawgeti(L, 1, static_cast<lua_Integer>(i) + 1) != LUA_TNUMBER)
