@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "program/stage_times.h"
 
+#include <lacuna/core/message.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -25,13 +27,6 @@ std::string quoted(std::string_view text)
             out += c;
     }
     return out + '"';
-}
-
-std::string number(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6f", value);
-    return text;
 }
 
 double seconds_of(const timeval& time)
@@ -86,14 +81,14 @@ std::string StageTimes::to_json(const std::string& recipe, int threads) const
     rusage usage = {};
     getrusage(RUSAGE_SELF, &usage);
     const auto times = [](const Stage& of) {
-        return "\"seconds\": " + number(of.seconds) +
-               ", \"processor_seconds\": " + number(of.processor_seconds);
+        return formatted("\"seconds\": {:.6f}, \"processor_seconds\": {:.6f}", of.seconds,
+                         of.processor_seconds);
     };
-    std::string text = "{\"recipe\": " + quoted(recipe) + ", " + times(rest) +
-                       ", \"peak_mib\": " + number(static_cast<double>(usage.ru_maxrss) / 1024) +
-                       ", \"threads\": " + std::to_string(threads) + ", \"stages\": [";
+    std::string text = formatted("{{\"recipe\": {}, {}, \"peak_mib\": {:.6f}, \"threads\": {}, \"stages\": [",
+                                 quoted(recipe), times(rest), static_cast<double>(usage.ru_maxrss) / 1024,
+                                 threads);
     const auto add = [&](const Stage& stage) {
-        text += "{\"stage\": " + quoted(stage.name) + ", " + times(stage) + "}";
+        text += formatted("{{\"stage\": {}, {}}}", quoted(stage.name), times(stage));
     };
     for (const Stage& stage : stages_) {
         add(stage);
