@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/text.h>
 
-#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/message.h>
 #include <lacuna/quality/shared/metrics.h>
 
 #include <algorithm>
 
 namespace lacuna::quality {
-namespace {
-
-std::string pad_left(const std::string& text, std::size_t width)
-{
-    return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
-}
-
-} // namespace
 
 std::string number(double value) { return formatted("{:.6g}", value); }
-
-std::string fixed(double value, int digits, std::size_t width)
-{
-    return pad_left(with_decimals(value, digits), width);
-}
 
 std::string place(const Vec3& point)
 {
@@ -36,23 +23,20 @@ std::string place_in_mesh(const WorstCell& cell, int layers)
 
 std::string to_table(const Quality& quality)
 {
-    const auto count = [](std::size_t value, std::size_t width) {
-        return pad_left(std::to_string(value), width);
-    };
     constexpr const char* kKinds[] = {"hexahedra ", "wedges    ", "pyramids  ", "tetrahedra"};
     const std::size_t counts[] = {quality.hexes, quality.wedges, quality.pyramids, quality.tets};
     std::string text, least;
     for (std::size_t k = 0; k < std::size(counts); ++k) {
         if (counts[k] == 0 && (k > 0 || quality.cells() > 0)) continue;
-        text += kKinds[k] + count(counts[k], 25) + "\n";
+        text += formatted("{}{:>25}\n", kKinds[k], counts[k]);
         if (counts[k] < quality.cells())
-            least += "   of the " + (kKinds[k] + fixed(quality.least_by_kind[k], 4, 15)) + "\n";
+            least += formatted("   of the {}{:>15.4f}\n", kKinds[k], quality.least_by_kind[k]);
     }
-    text += "scaled Jacobian  least " + fixed(quality.min_scaled_jacobian, 4, 12) + "\n" + least;
-    text += "                  mean " + fixed(quality.mean_scaled_jacobian, 4, 12) + "\n";
-    text += "inverted               " + count(quality.inverted, 12) + "\n";
-    text += "not certified valid    " + count(quality.uncertified, 12) + "\n";
-    text += "volume                 " + pad_left(number(quality.volume), 12) + "\n";
+    text += formatted("scaled Jacobian  least {:>12.4f}\n", quality.min_scaled_jacobian) + least;
+    text += formatted("                  mean {:>12.4f}\n", quality.mean_scaled_jacobian);
+    text += formatted("inverted               {:>12}\n", quality.inverted);
+    text += formatted("not certified valid    {:>12}\n", quality.uncertified);
+    text += formatted("volume                 {:>12.6g}\n", quality.volume);
 
     const std::size_t most = *std::max_element(quality.histogram.begin(), quality.histogram.end());
     if (most == 0) return text;
@@ -63,33 +47,25 @@ std::string to_table(const Quality& quality)
         const std::size_t cells = quality.histogram[bin];
         const std::size_t bar = (cells * kBar + most - 1) / most;
         const double low = -1 + 0.1 * static_cast<double>(bin);
-        text += "  " + fixed(low, 1, 4) + " … " + fixed(low + 0.1, 1, 4) + count(cells, 19);
-        text += (bar > 0 ? "  " : "") + std::string(bar, '#') + "\n";
+        text += formatted("  {:>4.1f} … {:>4.1f}{:>19}{}{}\n", low, low + 0.1, cells, bar > 0 ? "  " : "",
+                          std::string(bar, '#'));
     }
     return text;
 }
 
 std::string to_table(std::span<const MetricSummary> summaries)
 {
-    constexpr std::size_t kNameWidth = 29;
-    constexpr std::size_t kWidth = 13;
-    const auto pad_right = [](const std::string& text, std::size_t width) {
-        return text + std::string(width > text.size() ? width - text.size() : 1, ' ');
-    };
-    std::string text = pad_right("metric of the corner nodes", kNameWidth);
-    for (const char* head : {"least", "mean", "largest", "acceptable", "outside"})
-        text += pad_left(head, kWidth);
-    text += "\n";
+    std::string text = formatted("{:<29}{:>13}{:>13}{:>13}{:>13}{:>13}\n", "metric of the corner nodes",
+                                 "least", "mean", "largest", "acceptable", "outside");
     for (const MetricSummary& summary : summaries) {
         if (summary.cells == 0) continue;
         const MetricInfo& info = metric_info(summary.metric);
-        text += pad_right(info.name, kNameWidth);
-        for (const double value : {summary.min, summary.mean, summary.max})
-            text += pad_left(number(value), kWidth);
-        if (info.acceptable) {
-            text += pad_left(number(info.acceptable->low) + " to " + number(info.acceptable->high), kWidth);
-            text += pad_left(fixed(100 * summary.outside_share, 2) + " %", kWidth);
-        }
+        text += formatted("{:<29}{:>13.6g}{:>13.6g}{:>13.6g}", info.name, summary.min, summary.mean,
+                          summary.max);
+        if (info.acceptable)
+            text += formatted("{:>13}{:>11.2f} %",
+                              number(info.acceptable->low) + " to " + number(info.acceptable->high),
+                              100 * summary.outside_share);
         text += "\n";
     }
     return text;

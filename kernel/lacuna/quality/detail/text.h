@@ -12,9 +12,6 @@ namespace lacuna::quality {
 /// A number with up to six significant digits.
 std::string number(double value);
 
-/// A number with `digits` decimals, padded on the left to `width`.
-std::string fixed(double value, int digits, std::size_t width = 0);
-
 /// "1.5 0 -2"
 std::string place(const Vec3& point);
 
