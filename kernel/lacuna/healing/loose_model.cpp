@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/attempt.h>
+#include <lacuna/core/shared/renumbered.h>
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/split_edge.h>
@@ -295,30 +296,15 @@ topology::Model LooseModel::settled(const RunContext& context)
 
 void LooseModel::compact()
 {
-    std::vector<topology::Face> faces;
-    for (std::size_t f = 0; f < model_.faces.size(); ++f)
-        if (!face_gone_[f]) faces.push_back(std::move(model_.faces[f]));
-    model_.faces = std::move(faces);
-
-    std::vector<topology::Edge> edges;
+    keep_if(model_.faces, [&](std::size_t f) { return !face_gone_[f]; });
+    keep_if(model_.edges, [&](std::size_t e) { return !edge_gone_[e] && !users_[e].empty(); });
     std::vector<bool> vertex_used(model_.vertices.size(), false);
-    for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-        if (edge_gone_[e] || users_[e].empty()) continue;
-        edges.push_back(std::move(model_.edges[e]));
-        vertex_used[edges.back().from.index()] = vertex_used[edges.back().to.index()] = true;
-    }
-    model_.edges = std::move(edges);
-    std::vector<VertexId> vertex(model_.vertices.size());
-    std::vector<topology::Vertex> vertices;
-    for (std::size_t v = 0; v < vertex_used.size(); ++v) {
-        if (!vertex_used[v]) continue;
-        vertex[v] = VertexId(vertices.size());
-        vertices.push_back(model_.vertices[v]);
-    }
-    model_.vertices = std::move(vertices);
+    for (const topology::Edge& edge : model_.edges)
+        vertex_used[edge.from.index()] = vertex_used[edge.to.index()] = true;
+    const auto vertex = keep_if(model_.vertices, [&](std::size_t v) { return vertex_used[v]; });
 
-    std::vector<Index> place(model_.points.size(), -1);
-    const auto use = [&](Index p) { place[index(p)] = 0; };
+    std::vector<bool> used(model_.points.size(), false);
+    const auto use = [&](Index p) { used[index(p)] = true; };
     for (const topology::Vertex& v : model_.vertices) use(v.point);
     for (const topology::Edge& edge : model_.edges)
         std::for_each(edge.points.begin(), edge.points.end(), use);
@@ -326,18 +312,12 @@ void LooseModel::compact()
         for (const Triangle& t : face.triangles) std::for_each(t.begin(), t.end(), use);
         for (const Quad& q : face.given_quads) std::for_each(q.begin(), q.end(), use);
     }
-    Index count = 0;
-    for (std::size_t p = 0; p < place.size(); ++p) {
-        if (place[p] < 0) continue;
-        place[p] = count;
-        model_.points[index(count++)] = model_.points[p];
-    }
-    model_.points.resize(index(count));
+    const std::vector<Index> place = keep_if(model_.points, [&](std::size_t p) { return used[p]; });
     const auto renumber = [&](Index& p) { p = place[index(p)]; };
     for (topology::Vertex& v : model_.vertices) renumber(v.point);
     for (topology::Edge& edge : model_.edges) {
-        edge.from = vertex[edge.from.index()];
-        edge.to = vertex[edge.to.index()];
+        edge.from = VertexId(index(vertex[edge.from.index()]));
+        edge.to = VertexId(index(vertex[edge.to.index()]));
         std::for_each(edge.points.begin(), edge.points.end(), renumber);
     }
     for (topology::Face& face : model_.faces) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/renumbered.h>
 #include <lacuna/healing/detail/soup_facets.h>
 #include <lacuna/healing/split_facets.h>
 
@@ -55,7 +56,7 @@ void check_size(const Vec3& low, const Vec3& high, double diagonal)
                            .remedy("load with another 'scale'"));
 }
 
-/// Weld the points that facets use, and add the welded points to `facets` in the order of the soup.
+/// Weld the points that facets use. The points of `facets` become the welded ones, in the order of the soup.
 /// @return  for each point of the soup, its index in `facets`; -1: not used
 std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets,
                              const RunContext& context)
@@ -65,17 +66,9 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
         for (const Index p : t) used[index(p)] = true;
     for (const Quad& q : soup.quads)
         for (const Index p : q) used[index(p)] = true;
-    std::vector<Index> number(soup.points.size(), -1);
-    std::vector<Vec3> some; // the used points, if not all are used
-    const auto count = static_cast<std::size_t>(std::ranges::count(used, true));
-    if (count < used.size()) some.reserve(count);
-    Index next = 0;
-    for (std::size_t p = 0; p < used.size(); ++p) {
-        if (!used[p]) continue;
-        number[p] = next++;
-        if (count < used.size()) some.push_back(soup.points[p]);
-    }
-    const std::vector<Vec3>& points = count < used.size() ? some : soup.points;
+    std::vector<Vec3>& points = facets.points;
+    points = soup.points;
+    std::vector<Index> number = keep_if(points, [&](std::size_t p) { return used[p]; });
     Eigen::AlignedBox3d box;
     for (const Vec3& p : points) box.extend(p);
     facets.diagonal = box.diagonal().norm();
@@ -83,33 +76,20 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
     facets.tolerance = tolerance > 0 ? tolerance : kFileAccuracy * facets.diagonal;
 
     const std::vector<Index> joined = weld(points, facets.tolerance, context);
-    std::vector<Index> kept(points.size(), -1);
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        if (joined[p] == static_cast<Index>(p)) {
-            kept[p] = static_cast<Index>(facets.points.size());
-            facets.points.push_back(points[p]);
-        } else {
-            kept[p] = kept[index(joined[p])];
-        }
-    }
+    const std::vector<Index> kept = keep_if(
+        points, [&](std::size_t p) { return joined[p] == static_cast<Index>(p); });
     for (Index& p : number)
-        if (p >= 0) p = kept[index(p)];
+        if (p >= 0) p = kept[index(joined[index(p)])];
     return number;
 }
 
 /// Remove points that no remaining facet uses.
 void drop_unused_points(Facets& facets)
 {
-    std::vector<Index> number(facets.points.size(), -1);
+    std::vector<bool> used(facets.points.size(), false);
     for (const Triangle& t : facets.corner)
-        for (const Index p : t) number[index(p)] = 0;
-    Index kept = 0;
-    for (std::size_t p = 0; p < number.size(); ++p) {
-        if (number[p] < 0) continue;
-        number[p] = kept;
-        facets.points[index(kept++)] = facets.points[p];
-    }
-    facets.points.resize(index(kept));
+        for (const Index p : t) used[index(p)] = true;
+    const std::vector<Index> number = keep_if(facets.points, [&](std::size_t p) { return used[p]; });
     for (Triangle& t : facets.corner)
         for (Index& p : t) p = number[index(p)];
     for (Quad& q : facets.quads)
@@ -155,13 +135,7 @@ void drop_repeated(Facets& facets)
         label.push_back(facets.label[f]);
     }
     const std::vector<bool> repeated = repeated_cells(facets.points.size(), left, label);
-    std::vector<Index> number(facets.quads.size(), -1);
-    std::vector<Quad> quads;
-    for (std::size_t q = 0; q < quad_gone.size(); ++q) {
-        if (quad_gone[q]) continue;
-        number[q] = static_cast<Index>(quads.size());
-        quads.push_back(facets.quads[q]);
-    }
+    const std::vector<Index> number = keep_if(facets.quads, [&](std::size_t q) { return !quad_gone[q]; });
     std::size_t kept = 0;
     std::size_t next = 0;
     for (std::size_t f = 0; f < facets.corner.size(); ++f) {
@@ -176,7 +150,6 @@ void drop_repeated(Facets& facets)
     facets.corner.resize(kept);
     facets.label.resize(kept);
     facets.quad.resize(kept);
-    facets.quads = std::move(quads);
 }
 
 void close_tees(Facets& facets, const RunContext& context)

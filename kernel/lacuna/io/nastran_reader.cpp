@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/renumbered.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/nastran.h>
@@ -229,20 +230,12 @@ private:
     void drop(const std::vector<bool>& repeated)
     {
         Deck& deck = into_.deck();
-        std::vector<std::size_t> number(grids_.size());
-        std::size_t kept = 0;
-        for (std::size_t p = 0; p < grids_.size(); ++p) {
-            number[p] = kept;
-            if (repeated[p]) continue;
-            deck.points[kept] = deck.points[p];
-            deck.point_tags[kept] = deck.point_tags[p];
-            grids_[kept++] = grids_[p];
-        }
+        const auto stays = [&](std::size_t p) { return !repeated[p]; };
+        const std::vector<Index> number = keep_if(deck.points, stays);
+        keep_if(deck.point_tags, stays);
+        keep_if(grids_, stays);
         std::erase_if(deck.point_more, [&](const auto& more) { return repeated[more.first]; });
-        for (auto& more : deck.point_more) more.first = number[more.first];
-        deck.points.resize(kept);
-        deck.point_tags.resize(kept);
-        grids_.resize(kept);
+        for (auto& more : deck.point_more) more.first = index(number[more.first]);
         tags_.emplace(deck.point_tags);
     }
 

@@ -4,6 +4,7 @@
 #include <lacuna/core/types.h>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace lacuna {
@@ -35,5 +36,22 @@ private:
     const std::vector<Item>& items_;
     std::vector<Index> number_;
 };
+
+/// Erase the items for which `stays(i)` is false; the others stay in order.
+/// @return  the new number of each item; -1: erased
+template <class Item, class Stays>
+std::vector<Index> keep_if(std::vector<Item>& items, const Stays& stays)
+{
+    std::vector<Index> number(items.size(), -1);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (!stays(i)) continue;
+        number[i] = static_cast<Index>(count);
+        if (count < i) items[count] = std::move(items[i]);
+        ++count;
+    }
+    items.erase(items.begin() + static_cast<std::ptrdiff_t>(count), items.end());
+    return number;
+}
 
 } // namespace lacuna
