@@ -98,27 +98,21 @@ private:
         Index last = *std::ranges::find_if(first, [&](Index s) { return sharp_[index(s)] != 0; });
         Index at = end;
         while (true) {
-            const Vec3 ahead = points_[index(at)] - points_[index(other_end(last, at))];
+            const Vec3 ahead = points_[index(at)] - points_[index(sides_.other_end(last, at))];
             Index next = -1;
             for (const Index s : creases_.of(index(at))) {
-                const Vec3 way = points_[index(other_end(s, at))] - points_[index(at)];
+                const Vec3 way = points_[index(sides_.other_end(s, at))] - points_[index(at)];
                 const bool goes_on = geometry::angle_between(ahead, way) <
                                      kBendBelow * std::numbers::pi / 180;
                 if (s != last && goes_on && (next < 0 || cosine_[index(s)] < cosine_[index(next)])) next = s;
             }
             if (next < 0 || std::ranges::find(path, next) != path.end()) return {};
             path.push_back(next);
-            at = other_end(next, at);
+            at = sides_.other_end(next, at);
             last = next;
             if (std::ranges::any_of(creases_.of(index(at)), [&](Index s) { return sharp_[index(s)] != 0; }))
                 return at == end ? std::vector<Index>{} : path;
         }
-    }
-
-    [[nodiscard]] Index other_end(Index segment, Index point) const
-    {
-        const Index side = sides_.on(segment).front();
-        return sides_.from(side) == point ? sides_.to(side) : sides_.from(side);
     }
 
     const std::vector<Vec3>& points_;
@@ -414,22 +408,12 @@ private:
         at_ = incidence(model_.points.size(), [&](const auto& visit) {
             for (Index s = 0; s < count; ++s) {
                 if (kind_[index(s)] < 0) continue;
-                visit(index(ends(s).first), s);
-                visit(index(ends(s).second), s);
+                visit(index(sides_.from(sides_.on(s).front())), s);
+                visit(index(sides_.to(sides_.on(s).front())), s);
             }
         });
     }
 
-    [[nodiscard]] std::pair<Index, Index> ends(Index segment) const
-    {
-        const Index side = sides_.on(segment).front();
-        return {sides_.from(side), sides_.to(side)};
-    }
-    [[nodiscard]] Index other_end(Index segment, Index point) const
-    {
-        const auto [a, b] = ends(segment);
-        return a == point ? b : a;
-    }
     [[nodiscard]] std::span<const Index> segments_at(Index point) const { return at_.of(index(point)); }
 
     /// Whether a chain continues through a point: exactly two edge segments meet there, and both are of one
@@ -445,7 +429,7 @@ private:
     {
         std::vector<Index> points;
         for (int k = 0; k < reach_; ++k) {
-            const Index next = other_end(segment, points.empty() ? point : points.back());
+            const Index next = sides_.other_end(segment, points.empty() ? point : points.back());
             points.push_back(next);
             if (!goes_on(next)) break;
             segment = segments_at(next)[segments_at(next)[0] == segment ? 1 : 0];
@@ -501,7 +485,7 @@ private:
         std::vector<Index> points{point};
         while (true) {
             done_[index(segment)] = true;
-            point = other_end(segment, point);
+            point = sides_.other_end(segment, point);
             points.push_back(point);
             if (is_vertex_[index(point)] || point == points.front()) return points;
             const auto here = segments_at(point);

@@ -20,6 +20,12 @@ public:
 
     [[nodiscard]] Index from(Index side) const { return facets_[index(side) / 3][index(side) % 3]; }
     [[nodiscard]] Index to(Index side) const { return facets_[index(side) / 3][(index(side) + 1) % 3]; }
+    /// The point at the other end of a segment.
+    [[nodiscard]] Index other_end(Index segment, Index point) const
+    {
+        const Index side = on(segment).front();
+        return from(side) == point ? to(side) : from(side);
+    }
     [[nodiscard]] Index segment(Index side) const { return segment_[index(side)]; }
     [[nodiscard]] std::size_t segment_count() const { return first_.size() - 1; }
     /// The sides on a segment, in the order of the facets.
