@@ -7,6 +7,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/default_labels.h>
 #include <lacuna/core/shared/large_pages.h>
+#include <lacuna/core/shared/renumbered.h>
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/healing/shared/add_facet.h>
 #include <lacuna/healing/shared/weld.h>
@@ -314,16 +315,10 @@ private:
     void number_points()
     {
         healing::FacetSoup& soup = file_.soup;
-        std::vector<Index> number(deck_.points.size(), -1);
-        reserve_large(soup.points, deck_.points.size());
+        Renumbered<Vec3> points(deck_.points);
+        reserve_large(points.used, deck_.points.size());
         const auto meet = [&](auto& cell) {
-            for (Index& p : cell) {
-                if (number[index(p)] < 0) {
-                    number[index(p)] = static_cast<Index>(soup.points.size());
-                    soup.points.push_back(deck_.points[index(p)]);
-                }
-                p = number[index(p)];
-            }
+            for (Index& p : cell) p = points(p);
         };
         std::size_t t = 0;
         std::size_t q = 0;
@@ -331,6 +326,7 @@ private:
             for (; t < soup.triangles.size() && soup.triangle_label[t] == label; ++t) meet(soup.triangles[t]);
             for (; q < soup.quads.size() && soup.quad_label[q] == label; ++q) meet(soup.quads[q]);
         }
+        soup.points = std::move(points.used);
     }
 
     /// All names of a region: its own, its part's, and those of sets that contain all of it.

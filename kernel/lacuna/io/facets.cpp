@@ -2,6 +2,7 @@
 #include <lacuna/io/facets.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/renumbered.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/mesh_file.h>
 #include <lacuna/topology/shared/hollows.h>
@@ -65,22 +66,16 @@ Skin skin_of(const OpenVolume& volume, const RunContext& context)
     Model model = volume.model;
     orient_skin(model, context);
     Skin skin;
-    std::vector<Index> number(model.points.size(), -1);
+    Renumbered<Vec3> points(model.points);
     for (const Face& face : model.faces) {
         skin.start.push_back(skin.triangles.size());
         for (Triangle t : face.triangles) {
-            for (Index& p : t) {
-                Index& place = number[static_cast<std::size_t>(p)];
-                if (place < 0) {
-                    place = static_cast<Index>(skin.points.size());
-                    skin.points.push_back(model.at(p));
-                }
-                p = place;
-            }
+            for (Index& p : t) p = points(p);
             skin.triangles.push_back(t);
         }
     }
     skin.start.push_back(skin.triangles.size());
+    skin.points = std::move(points.used);
     return skin;
 }
 

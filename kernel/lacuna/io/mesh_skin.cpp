@@ -2,6 +2,7 @@
 #include <lacuna/io/shared/mesh_skin.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/renumbered.h>
 #include <lacuna/healing/shared/add_facet.h>
 #include <lacuna/io/detail/texts.h>
 
@@ -12,22 +13,16 @@ namespace lacuna::io {
 MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context)
 {
     healing::FacetSoup soup;
-    std::vector<Index> place(mesh.nodes.size(), -1);
+    Renumbered<Vec3> nodes(mesh.nodes);
     for (std::size_t p = 0; p < mesh.patches.size(); ++p) soup.label_name.push_back(std::to_string(p));
     soup.label_keeps_nodes.assign(mesh.patches.size(), 1);
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const mesh::SkinQuad skin = skin_quad(mesh, i);
         Quad quad = skin.nodes;
-        for (Index& n : quad) {
-            Index& own = place[index(n)];
-            if (own < 0) {
-                own = static_cast<Index>(soup.points.size());
-                soup.points.push_back(mesh.nodes[index(n)]);
-            }
-            n = own;
-        }
+        for (Index& n : quad) n = nodes(n);
         healing::add_facet(soup, std::span(quad).first(mesh::corner_count(quad)), skin.patch);
     }
+    soup.points = std::move(nodes.used);
     healing::SplitOptions options;
     options.whole_labels = true;
     topology::ModelBuilder model(healing::split_facets(soup, options, context));
