@@ -271,10 +271,8 @@ public:
         add_sets("elem_sets", "els", "num_ele_els", "elem_els", cells_);
         add_sets("side_sets", "ss", "num_side_ss", "elem_ss", sides_);
         if (!view_->fields.empty()) add_fields(time);
-        nc_.array("time_whole", NcType::real, {time}, 1, [](std::size_t begin, std::size_t end, char* out) {
-            for (; begin < end; ++begin) out = io::put_big(out, 0.0);
-            return out;
-        });
+        nc_.array("time_whole", NcType::real, {time}, 1,
+                  each([](std::size_t, char* out) { return io::put_big(out, 0.0); }));
         file_.sections = nc_.take();
         file_.sizes = Sizes::exact;
         return std::move(file_);
@@ -377,19 +375,9 @@ private:
         for (const int axis : {0, 1, 2})
             nc_.array(
                 std::string("coord") + "xyz" [axis], NcType::real, { nodes }, 1,
-                [view = view_, axis](std::size_t begin, std::size_t end, char* out) {
-                    view->each_point(begin, end, [&](std::span<const Vec3> points) {
-                        for (const Vec3& point : points) out = io::put_big(out, point[axis]);
-                    });
-                    return out;
-                },
+                fill_points(view_, [axis](char* out, const Vec3& p) { return io::put_big(out, p[axis]); }),
                 unit_.empty() ? std::vector<Attribute>() : std::vector{text_attribute("units", unit_)});
-        nc_.array("node_num_map", NcType::whole, {nodes}, 1,
-                  [view = view_](std::size_t begin, std::size_t end, char* out) {
-                      view->point_tags.each(begin, end,
-                                            [&](std::size_t, DeckTag tag) { out = put_whole(out, tag); });
-                      return out;
-                  });
+        nc_.array("node_num_map", NcType::whole, {nodes}, 1, fill_numbers(view_->point_tags, put_whole));
     }
 
     static char* put_whole(char* out, std::int64_t value)
@@ -467,12 +455,7 @@ private:
             const std::string number = std::to_string(s + 1);
             const int members = nc_.dimension(length + number, sets[s].members.count());
             nc_.array(list + number, NcType::whole, {members}, 1,
-                      [all = sets[s].members](std::size_t begin, std::size_t end, char* out) {
-                          all.each(begin, end, [&](std::size_t first, std::size_t last) {
-                              for (; first < last; ++first) out = put_whole(out, std::int64_t(first));
-                          });
-                          return out;
-                      });
+                      fill_numbers(mesh::Numbers(sets[s].members), put_whole));
             if (sets[s].sides)
                 nc_.wholes("side_ss" + number, {members},
                            [all = sets[s].sides](std::size_t i) { return (*all)[i]; });

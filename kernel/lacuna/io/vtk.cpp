@@ -94,15 +94,6 @@ FillBlock by_tag(const View& view, Put put_one)
     };
 }
 
-template <class Put>
-Fill point_tags(const View& view, Put put_one)
-{
-    return [=](std::size_t begin, std::size_t end, char* out) {
-        view->point_tags.each(begin, end, [&](std::size_t, std::int64_t tag) { out = put_one(out, tag); });
-        return out;
-    };
-}
-
 int entity_number(const MeshView::Entity& entity) { return entity.number; }
 int region_number(const MeshView::Entity& entity) { return entity.region; }
 
@@ -245,7 +236,8 @@ std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = null
     };
     const bool numbered = view->is_deck || view->point_tags.given();
     const auto number_points = [&] {
-        of_points(Place::point_data, "type=\"Int64\" Name=\"node_number\"", 8, point_tags(view, put_one));
+        of_points(Place::point_data, "type=\"Int64\" Name=\"node_number\"", 8,
+                  fill_numbers(view->point_tags, put_one));
     };
     of_points(Place::points, "type=\"Float64\" NumberOfComponents=\"3\"", sizeof(Vec3),
               [view](std::size_t begin, std::size_t end, char* out) {
@@ -376,15 +368,10 @@ std::vector<Section> vtk_sections(const View& view, bool binary, const std::stri
     const std::string count = std::to_string(view->cells());
     std::vector<Section> all{
         {vtk_head(*view, binary, unit) + "POINTS " + std::to_string(view->points) + " double\n", view->points,
-         room(3, 8), [view, binary](std::size_t begin, std::size_t end, char* out) {
-             view->each_point(begin, end, [&](std::span<const Vec3> points) {
-                 for (const Vec3& point : points) {
-                     for (const double x : point) out = put_number(out, x, binary);
-                     out = end_line(out, binary);
-                 }
-             });
-             return out;
-         }}};
+         room(3, 8), fill_points(view, [binary](char* out, const Vec3& point) {
+             for (const double x : point) out = put_number(out, x, binary);
+             return end_line(out, binary);
+         })}};
     const auto add = [&](const std::string& before, std::vector<Section> sections) {
         sections.front().text = before;
         for (Section& section : sections) all.push_back(std::move(section));
@@ -426,7 +413,7 @@ std::vector<Section> vtk_sections(const View& view, bool binary, const std::stri
     if (view->is_deck) {
         of_cells("\n" + scalars("cell_number", "long"), 8, by_tag(view, put_line));
         all.push_back({"\nPOINT_DATA " + std::to_string(view->points) + "\n" + scalars("node_number", "long"),
-                       view->points, room(1, 8), point_tags(view, put_line)});
+                       view->points, room(1, 8), fill_numbers(view->point_tags, put_line)});
     }
     all.push_back({"\n", 0, 0, {}});
     return all;

@@ -38,6 +38,26 @@ void each_cell(const mesh::MeshView::Block& block, std::size_t begin, std::size_
     }
 }
 
+/// Writes the points of a view with `put_one(out, point)`.
+template <class Put>
+Fill fill_points(const View& view, Put put_one)
+{
+    return [view, put_one](std::size_t begin, std::size_t end, char* out) {
+        view->each_point(begin, end, [&](std::span<const Vec3> points) {
+            for (const Vec3& point : points) out = put_one(out, point);
+        });
+        return out;
+    };
+}
+/// Writes numbers with `put_one(out, number)`.
+template <class Put>
+Fill fill_numbers(mesh::Numbers numbers, Put put_one)
+{
+    return [all = std::move(numbers), put_one](std::size_t begin, std::size_t end, char* out) {
+        all.each(begin, end, [&](std::size_t, std::int64_t number) { out = put_one(out, number); });
+        return out;
+    };
+}
 /// A section that consists of `text` and all points. `put(index, tag, point, out)` writes each point in at
 /// most `bytes` bytes.
 template <class Put>
