@@ -60,30 +60,21 @@ Cards cards_of(const MeshView::KeptText& kept)
     return cards;
 }
 
-/// The element numbers of a set or region, as rising ranges [first, last).
-class TagRanges {
-public:
-    void add(const mesh::Numbers& tags, std::size_t begin, std::size_t end)
-    {
-        tags.each_range(begin, end,
-                        [&](std::size_t first, std::size_t last) { ranges_.emplace_back(first, last); });
-    }
-    /// @return  all added numbers, in as few ranges as possible.
-    std::vector<std::pair<std::size_t, std::size_t>> take()
-    {
-        std::ranges::sort(ranges_);
-        std::vector<std::pair<std::size_t, std::size_t>> merged;
-        for (const auto& [first, last] : ranges_)
-            if (!merged.empty() && merged.back().second == first)
-                merged.back().second = last;
-            else
-                merged.emplace_back(first, last);
-        return merged;
-    }
+/// Numbers as ranges [first, last).
+using TagRanges = std::vector<std::pair<std::size_t, std::size_t>>;
 
-private:
-    std::vector<std::pair<std::size_t, std::size_t>> ranges_;
-};
+/// The same numbers, rising and in as few ranges as possible.
+TagRanges merged(TagRanges ranges)
+{
+    std::ranges::sort(ranges);
+    TagRanges all;
+    for (const auto& [first, last] : ranges)
+        if (!all.empty() && all.back().second == first)
+            all.back().second = last;
+        else
+            all.emplace_back(first, last);
+    return all;
+}
 
 class AbaqusWriter {
 public:
@@ -342,12 +333,15 @@ private:
     [[nodiscard]] bool is_region(const MeshView::Set& set, std::size_t region) const
     {
         TagRanges members, own;
-        members.add(set.members, 0, set.count);
+        const auto add_to = [](TagRanges& all) {
+            return [&all](std::size_t first, std::size_t last) { all.emplace_back(first, last); };
+        };
+        set.members.each_range(0, set.count, add_to(members));
         for (const MeshView::Block& block : view_->blocks)
             mesh::each_run(block.regions, 0, block.count, [&](std::size_t first, std::size_t last, Index of) {
-                if (of >= 0 && index(of) == region) own.add(block.tags, first, last);
+                if (of >= 0 && index(of) == region) block.tags.each_range(first, last, add_to(own));
             });
-        return members.take() == own.take();
+        return merged(std::move(members)) == merged(std::move(own));
     }
 
     /// Find the sets that equal a region. They are written as the ELSET of the region's elements.
