@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/deck_builder.h>
 
+#include <algorithm>
+
 namespace lacuna::io {
 namespace {
 
@@ -100,11 +102,7 @@ private:
         std::array<Index, 8> corner{};
         const int corners = shape_info(section.shape).corners;
         for (int k = 0; k < corners; ++k) {
-            corner[index(k)] = cursor_.integer();
-            if (corner[index(k)] > 0)
-                --corner[index(k)];
-            else
-                corner[index(k)] = -1;
+            corner[index(k)] = std::max(cursor_.integer(), 0) - 1;
             if (corner[index(k)] < 0 || index(corner[index(k)]) >= into_.points().size())
                 cursor_.fail("expected the number of one of the {} vertices so far", into_.points().size());
         }

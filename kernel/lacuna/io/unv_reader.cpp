@@ -102,21 +102,21 @@ private:
     /// Read a dataset. @return  false if it is not part of the mesh.
     bool read_dataset(int dataset)
     {
+        const auto each_entry = [&](const auto& read_entry) {
+            while (next_line()) read_entry();
+            return true;
+        };
         const auto group = std::ranges::find(kGroupDatasets, dataset, &GroupDataset::number);
-        if (dataset == 15)
-            while (next_line()) read_node(whole(0), 4);
-        else if (dataset == 781 || dataset == 2411)
-            while (next_line()) read_node_of_two_lines();
-        else if (dataset == 71 || dataset == 780 || dataset == 2412)
-            while (next_line()) read_element(dataset);
-        else if (group != std::end(kGroupDatasets))
-            while (next_line()) read_group(*group);
-        else if (dataset == 2420)
+        if (dataset == 15) return each_entry([&] { read_node(whole(0), 4); });
+        if (dataset == 781 || dataset == 2411) return each_entry([&] { read_node_of_two_lines(); });
+        if (dataset == 71 || dataset == 780 || dataset == 2412)
+            return each_entry([&] { read_element(dataset); });
+        if (group != std::end(kGroupDatasets)) return each_entry([&] { read_group(*group); });
+        if (dataset == 2420)
             read_frames();
         else
             while (more_lines()) {}
-        return dataset == 15 || dataset == 781 || dataset == 2411 || dataset == 71 || dataset == 780 ||
-               dataset == 2412 || group != std::end(kGroupDatasets);
+        return false;
     }
 
     /// Read coordinate frames, and find those that rotate or shift coordinates. The dataset has a part and
