@@ -117,39 +117,32 @@ std::vector<bool> repeated_cells(std::size_t points, const std::vector<std::arra
     return repeated;
 }
 
+/// Keep the facets for which `stays(f)` is true.
+template <class Stays>
+void keep_facets(Facets& facets, const Stays& stays)
+{
+    keep_if(facets.corner, stays);
+    keep_if(facets.label, stays);
+    keep_if(facets.quad, stays);
+}
+
 /// Remove facets and quads that repeat an earlier one. Halves of quads are removed with their quads.
 void drop_repeated(Facets& facets)
 {
+    const std::size_t before = facets.count();
     std::vector<int> quad_label(facets.quads.size(), 0);
-    for (std::size_t f = 0; f < facets.count(); ++f)
+    for (std::size_t f = 0; f < before; ++f)
         if (facets.quad[f] >= 0) quad_label[index(facets.quad[f])] = facets.label[f];
     const std::vector<bool> quad_gone = repeated_cells(facets.points.size(), facets.quads, quad_label);
-    const auto gone_with_quad = [&](std::size_t f) {
-        return facets.quad[f] >= 0 && quad_gone[index(facets.quad[f])];
-    };
-    std::vector<Triangle> left;
-    std::vector<int> label;
-    for (std::size_t f = 0; f < facets.count(); ++f) {
-        if (gone_with_quad(f)) continue;
-        left.push_back(facets.corner[f]);
-        label.push_back(facets.label[f]);
-    }
-    const std::vector<bool> repeated = repeated_cells(facets.points.size(), left, label);
+    keep_facets(facets,
+                [&](std::size_t f) { return facets.quad[f] < 0 || !quad_gone[index(facets.quad[f])]; });
+    const std::vector<bool> repeated = repeated_cells(facets.points.size(), facets.corner, facets.label);
+    // A half of a quad stays, even if it repeats a triangle.
+    keep_facets(facets, [&](std::size_t f) { return !repeated[f] || facets.quad[f] >= 0; });
+    facets.repeated = before - facets.count();
     const std::vector<Index> number = keep_if(facets.quads, [&](std::size_t q) { return !quad_gone[q]; });
-    std::size_t kept = 0;
-    std::size_t next = 0;
-    for (std::size_t f = 0; f < facets.corner.size(); ++f) {
-        if (gone_with_quad(f)) continue;
-        // A half of a quad stays, even if it repeats a triangle.
-        if (repeated[next++] && facets.quad[f] < 0) continue;
-        facets.corner[kept] = facets.corner[f];
-        facets.label[kept] = facets.label[f];
-        facets.quad[kept++] = facets.quad[f] < 0 ? -1 : number[index(facets.quad[f])];
-    }
-    facets.repeated = facets.count() - kept;
-    facets.corner.resize(kept);
-    facets.label.resize(kept);
-    facets.quad.resize(kept);
+    for (Index& quad : facets.quad)
+        if (quad >= 0) quad = number[index(quad)];
 }
 
 void close_tees(Facets& facets, const RunContext& context)

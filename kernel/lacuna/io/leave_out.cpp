@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
+#include <lacuna/core/shared/renumbered.h>
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
@@ -215,20 +216,15 @@ private:
     void split_points()
     {
         Deck& kept = found_.kept;
-        std::vector<Index> place(deck_.points.size(), -1);
-        auto more = deck_.point_more.begin();
-        for (std::size_t p = 0; p < place.size(); ++p) {
-            const bool has_more = more != deck_.point_more.end() && more->first == p;
-            if (goes_[p] == 0) {
-                place[p] = static_cast<Index>(kept.points.size());
-                if (has_more) kept.point_more.emplace_back(kept.points.size(), more->second);
-                kept.points.push_back(deck_.points[p]);
-                kept.point_tags.push_back(deck_.point_tags[p]);
-            } else {
-                kept.gap.node = std::max(kept.gap.node, deck_.point_tags[p]);
-            }
-            if (has_more) ++more;
-        }
+        const auto stays = [&](std::size_t p) { return goes_[p] == 0; };
+        kept.points = deck_.points;
+        kept.point_tags = deck_.point_tags;
+        const std::vector<Index> place = keep_if(kept.points, stays);
+        keep_if(kept.point_tags, stays);
+        for (std::size_t p = 0; p < place.size(); ++p)
+            if (!stays(p)) kept.gap.node = std::max(kept.gap.node, deck_.point_tags[p]);
+        for (const auto& [p, text] : deck_.point_more)
+            if (stays(p)) kept.point_more.emplace_back(index(place[p]), text);
         for (DeckBlock& block : kept.blocks)
             for (Index& node : block.nodes)
                 if (node >= 0) node = place[index(node)];
