@@ -194,7 +194,7 @@ private:
             for (std::size_t i = begin; i < end && stores(); ++i) {
                 poll(i);
                 const std::size_t c = parts_.cell(i);
-                for (const Index node : parts_.cell_nodes(c)) block.nodes.push_back(point(node));
+                for (const Index node : cell_nodes(mesh_, c)) block.nodes.push_back(point(node));
                 block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
                 block.regions.push_back(region);
             }
@@ -258,10 +258,10 @@ private:
             added.cells.push_back(first_cell_ + static_cast<DeckTag>(c));
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             NewCells::Side& side = added.skin.emplace_back();
-            const Quad corners = parts_.skin_quad(i);
+            const Quad corners = skin_quad(mesh_, i).nodes;
             for (std::size_t k = 0; k < 4; ++k)
                 side.corners[k] = mesh_.node(index(corners[k])) / added_.scale;
-            for (const Index node : parts_.skin_nodes(i)) side.nodes.push_back(point_tag(node));
+            for (const Index node : skin_nodes(mesh_, i)) side.nodes.push_back(point_tag(node));
             if (has_sides()) side.side = {first_cell_ + cells_[i], sides_[i]};
             if (added_.skin_cells) side.cell = skin_tag(i);
         }
@@ -313,7 +313,7 @@ private:
         // other formats have no region for skin elements.
         const auto region_of = [&](std::size_t i) {
             if (options_.format != DeckFormat::msh) return unv() ? region_ : -1;
-            const auto& groups = mesh_.patches[index(parts_.patch(i))].groups;
+            const auto& groups = mesh_.patches[index(skin_quad(mesh_, i).patch)].groups;
             if (groups.empty()) return Index(-1);
             const auto [found, fresh] = skin_regions_.try_emplace(groups.front(), -1);
             if (!fresh) return found->second;
@@ -330,7 +330,7 @@ private:
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t i = parts_.side(k);
                 if (is_inner(i) || is_there(i)) continue;
-                for (const Index node : parts_.skin_nodes(i)) block.nodes.push_back(point(node));
+                for (const Index node : skin_nodes(mesh_, i)) block.nodes.push_back(point(node));
                 block.tags.push_back(skin_tag(i));
                 block.regions.push_back(region_of(i));
             }
@@ -340,7 +340,7 @@ private:
     /// A quad of the skin by the deck's points.
     [[nodiscard]] Quad key_of(std::size_t i) const
     {
-        Quad quad = parts_.skin_quad(i);
+        Quad quad = skin_quad(mesh_, i).nodes;
         for (Index& node : quad) node = point(node);
         return face_key(quad);
     }
@@ -361,7 +361,7 @@ private:
     [[nodiscard]] bool is_inner(std::size_t i) const
     {
         const bool several = added_.before != nullptr;
-        if (several && mesh_.patches[index(parts_.patch(i))].groups.empty()) return true;
+        if (several && mesh_.patches[index(skin_quad(mesh_, i).patch)].groups.empty()) return true;
         return !added_.inner.empty() && added_.inner[i] != 0;
     }
 
@@ -379,7 +379,7 @@ private:
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             poll(i);
             if (added_.skin_cells && is_inner(i)) continue;
-            for (const std::string& name : mesh_.patches[index(parts_.patch(i))].groups) {
+            for (const std::string& name : mesh_.patches[index(skin_quad(mesh_, i).patch)].groups) {
                 std::vector<std::uint32_t>& of = quads[name];
                 if (of.empty()) names.push_back(name);
                 of.push_back(static_cast<std::uint32_t>(i));
@@ -437,7 +437,7 @@ private:
         }
         set.kind = DeckSet::Kind::nodes;
         for (const std::uint32_t i : quads)
-            for (const Index node : parts_.skin_nodes(i)) set.members.push_back(point_tag(node));
+            for (const Index node : skin_nodes(mesh_, i)) set.members.push_back(point_tag(node));
         sets_.add(set, name, name);
         const bool in_contact = std::ranges::any_of(options_.contacts, [&](const mesh::ContactPair& pair) {
             return std::ranges::find(pair.groups, name) != pair.groups.end();

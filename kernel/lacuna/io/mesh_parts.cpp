@@ -60,7 +60,7 @@ std::pair<std::vector<std::uint32_t>, std::vector<int>> TetParts::behind_skin() 
         std::vector<std::uint32_t>(mesh.skin.size()), std::vector<int>(mesh.skin.size())};
     for (const OfShape& of : cells())
         for (std::size_t c = of.begin; c < of.end; ++c) {
-            const mesh::CellNodes nodes = cell_nodes(c);
+            const mesh::CellNodes nodes = mesh::cell_nodes(mesh, c);
             int number = 0;
             for (Quad face : face_corners(of.shape)) {
                 for (Index& corner : face) corner = corner < 0 ? -1 : nodes.node[index(corner)];

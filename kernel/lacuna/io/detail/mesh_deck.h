@@ -19,7 +19,7 @@
 /// Adding a swept mesh to a deck. Internal to this folder.
 namespace lacuna::io {
 
-// Common interface of swept meshes and tetrahedra: cells and skin by shape, and their nodes.
+// Common interface of swept meshes and tetrahedra: cells and skin by shape.
 
 /// Positions [begin, end) of the cells, or of the sides of the skin, of one shape.
 struct OfShape {
@@ -45,10 +45,6 @@ struct SweptParts {
     }
     [[nodiscard]] std::size_t cell(std::size_t i) const { return kinds.cell(i); }
     [[nodiscard]] std::size_t side(std::size_t i) const { return kinds.skin(i); }
-    [[nodiscard]] mesh::CellNodes cell_nodes(std::size_t c) const { return mesh::cell_nodes(mesh, c); }
-    [[nodiscard]] mesh::CellNodes skin_nodes(std::size_t i) const { return mesh::skin_nodes(mesh, i); }
-    [[nodiscard]] Quad skin_quad(std::size_t i) const { return mesh::skin_quad(mesh, i).nodes; }
-    [[nodiscard]] Index patch(std::size_t i) const { return mesh::skin_quad(mesh, i).patch; }
     /// For each side of the skin: its cell, and the number of that face in the cell.
     [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<int>> behind_skin() const;
     [[nodiscard]] std::size_t nodes() const { return mesh::corner_count(mesh) + mesh::middle_count(mesh); }
@@ -73,10 +69,6 @@ struct TetParts {
     }
     [[nodiscard]] static std::size_t cell(std::size_t i) { return i; }
     [[nodiscard]] static std::size_t side(std::size_t i) { return i; }
-    [[nodiscard]] mesh::CellNodes cell_nodes(std::size_t c) const { return mesh::cell_nodes(mesh, c); }
-    [[nodiscard]] mesh::CellNodes skin_nodes(std::size_t i) const { return mesh::skin_nodes(mesh, i); }
-    [[nodiscard]] Quad skin_quad(std::size_t i) const { return mesh.skin[i]; }
-    [[nodiscard]] Index patch(std::size_t i) const { return mesh.skin_patch[i]; }
     /// As for swept meshes.
     [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<int>> behind_skin() const;
     [[nodiscard]] std::size_t nodes() const { return mesh.node_count(); }
