@@ -54,80 +54,67 @@ std::vector<FormatRow> make_table()
 {
     using enum DeckFormat;
     std::vector<FormatRow> table;
+    FormatRow* row = nullptr; // the last one
+    const auto add = [&](const FormatRow& made) { row = &table.emplace_back(made); };
     constexpr std::string_view kNoSides = "sets of sides are not written: VTK has none";
 
-    FormatRow row = view_format(".msh", "an MSH file", "MSH", msh,
-                                "version binary quality groups gmsh_options "
-                                "partitions ghosts with without "
-                                "renumber first_node first_cell interfaces",
-                                msh_file);
-    row.read = read_msh, row.has_node_sets = false;
-    row.unwritten_sets = "sets of nodes or sides are not written: groups of MSH hold elements";
-    table.push_back(row);
-    row = view_format(".vtu", "a VTU file", "VTK", vtu,
-                      "quality orientation with without renumber first_node first_cell interfaces", vtu_file);
-    row.read = read_vtu, row.unwritten_sets = kNoSides;
-    table.push_back(row);
-    row = view_format(".pvtu", "a PVTU file", "VTK", vtu, "quality partitions ghosts interfaces", nullptr);
-    row.is_read = row.streamed_parts = false;
-    table.push_back(row);
-    row = view_format(".vtk", "a legacy VTK file", "VTK", vtk,
-                      "binary quality orientation with without renumber first_node first_cell interfaces",
-                      vtk_file);
-    row.read = read_vtk, row.unwritten_sets = kNoSides;
-    table.push_back(row);
-    row = deck_format(".inp", "an Abaqus deck", "Abaqus", abaqus, Format::Skin::nodes_and_sides, abaqus_file,
-                      read_abaqus);
-    row.options = "element orientation with without renumber first_node first_cell interfaces";
-    row.has_contacts = true, row.has_thin_order2 = false;
-    table.push_back(row);
+    add(view_format(".msh", "an MSH file", "MSH", msh,
+                    "version binary quality groups gmsh_options "
+                    "partitions ghosts with without "
+                    "renumber first_node first_cell interfaces",
+                    msh_file));
+    row->read = read_msh, row->has_node_sets = false;
+    row->unwritten_sets = "sets of nodes or sides are not written: groups of MSH hold elements";
+    add(view_format(".vtu", "a VTU file", "VTK", vtu,
+                    "quality orientation with without renumber first_node first_cell interfaces", vtu_file));
+    row->read = read_vtu, row->unwritten_sets = kNoSides;
+    add(view_format(".pvtu", "a PVTU file", "VTK", vtu, "quality partitions ghosts interfaces", nullptr));
+    row->is_read = row->streamed_parts = false;
+    add(view_format(".vtk", "a legacy VTK file", "VTK", vtk,
+                    "binary quality orientation with without renumber first_node first_cell interfaces",
+                    vtk_file));
+    row->read = read_vtk, row->unwritten_sets = kNoSides;
+    add(deck_format(".inp", "an Abaqus deck", "Abaqus", abaqus, Format::Skin::nodes_and_sides, abaqus_file,
+                    read_abaqus));
+    row->options = "element orientation with without renumber first_node first_cell interfaces";
+    row->has_contacts = true, row->has_thin_order2 = false;
     for (const char* ending : {".bdf", ".nas", ".dat"}) {
-        row = deck_format(ending, "a Nastran deck", "Nastran", nastran, Format::Skin::nodes, nastran_file,
-                          read_nastran);
-        row.unwritten_sets = "sets of sides are not written: Nastran has none";
-        row.omits_middles = row.has_contacts = true;
-        row.options = kOrientedDeckOptions;
-        table.push_back(row);
+        add(deck_format(ending, "a Nastran deck", "Nastran", nastran, Format::Skin::nodes, nastran_file,
+                        read_nastran));
+        row->unwritten_sets = "sets of sides are not written: Nastran has none";
+        row->omits_middles = row->has_contacts = true;
+        row->options = kOrientedDeckOptions;
     }
-    row = deck_format(".unv", "a universal file", "UNV", unv, Format::Skin::quads, unv_file, read_unv);
-    row.unwritten_sets = "sets of sides are not written: UNV has none";
-    table.push_back(row);
+    add(deck_format(".unv", "a universal file", "UNV", unv, Format::Skin::quads, unv_file, read_unv));
+    row->unwritten_sets = "sets of sides are not written: UNV has none";
     for (const char* ending : {".exo", ".e"}) {
-        row = deck_format(ending, "an Exodus file", "Exodus", exodus, Format::Skin::nodes_and_sides,
-                          exodus_file, read_exodus);
-        row.has_hex27 = true, row.streamed_parts = false;
-        row.options = kOrientedDeckOptions;
-        table.push_back(row);
+        add(deck_format(ending, "an Exodus file", "Exodus", exodus, Format::Skin::nodes_and_sides,
+                        exodus_file, read_exodus));
+        row->has_hex27 = true, row->streamed_parts = false;
+        row->options = kOrientedDeckOptions;
     }
     for (const char* ending : {".k", ".key", ".dyn"}) {
-        row = deck_format(ending, "an LS-DYNA deck", "LS-DYNA", dyna, Format::Skin::nodes_and_sides,
-                          dyna_file, read_dyna);
-        row.has_contacts = true, row.has_thin_order2 = false;
-        table.push_back(row);
+        add(deck_format(ending, "an LS-DYNA deck", "LS-DYNA", dyna, Format::Skin::nodes_and_sides, dyna_file,
+                        read_dyna));
+        row->has_contacts = true, row->has_thin_order2 = false;
     }
-    row = deck_format(".feb", "a FEBio file", "FEBio", febio, Format::Skin::nodes_and_sides, febio_file,
-                      nullptr);
-    row.is_read = false, row.has_hex27 = row.has_contacts = true, row.options = kOrientedDeckOptions;
-    table.push_back(row);
-    row = view_format(".med", "a MED file", "MED", med,
-                      "with without renumber first_node first_cell interfaces", med_file);
-    row.read = read_med, row.streamed = row.streamed_parts = false;
-    row.unwritten_sets = "sets of sides are not written: MED has none";
-    table.push_back(row);
-    row = mesh_format("polyMesh", "a polyMesh of OpenFOAM", "OpenFOAM", msh);
-    row.is_folder = true, row.is_read = row.has_node_sets = false;
-    row.options = "with without renumber interfaces", row.write_folder = write_poly_mesh;
-    row.unwritten_sets = "sets of nodes or sides are not written: a polyMesh has patches of faces";
-    table.push_back(row);
-    row = mesh_format(".mesh", "a Medit file", "Medit", medit);
-    row.read = read_medit, row.is_written = false, row.numbers_regions = true;
-    table.push_back(row);
-    row = mesh_format(".stl", "an STL file", "STL", stl);
-    row.read = read_stl, row.is_written = row.is_mesh = false;
-    table.push_back(row);
-    row = mesh_format(".obj", "a Wavefront OBJ file", "OBJ", obj);
-    row.read = read_obj, row.is_written = row.is_mesh = false;
-    table.push_back(row);
+    add(deck_format(".feb", "a FEBio file", "FEBio", febio, Format::Skin::nodes_and_sides, febio_file,
+                    nullptr));
+    row->is_read = false, row->has_hex27 = row->has_contacts = true, row->options = kOrientedDeckOptions;
+    add(view_format(".med", "a MED file", "MED", med,
+                    "with without renumber first_node first_cell interfaces", med_file));
+    row->read = read_med, row->streamed = row->streamed_parts = false;
+    row->unwritten_sets = "sets of sides are not written: MED has none";
+    add(mesh_format("polyMesh", "a polyMesh of OpenFOAM", "OpenFOAM", msh));
+    row->is_folder = true, row->is_read = row->has_node_sets = false;
+    row->options = "with without renumber interfaces", row->write_folder = write_poly_mesh;
+    row->unwritten_sets = "sets of nodes or sides are not written: a polyMesh has patches of faces";
+    add(mesh_format(".mesh", "a Medit file", "Medit", medit));
+    row->read = read_medit, row->is_written = false, row->numbers_regions = true;
+    add(mesh_format(".stl", "an STL file", "STL", stl));
+    row->read = read_stl, row->is_written = row->is_mesh = false;
+    add(mesh_format(".obj", "a Wavefront OBJ file", "OBJ", obj));
+    row->read = read_obj, row->is_written = row->is_mesh = false;
     return table;
 }
 
