@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 
 namespace lacuna::io {
@@ -219,15 +220,10 @@ private:
     /// Numbers of nodes or elements: from a map, or consecutive if there is none.
     std::vector<DeckTag> numbers(const char* map, const char* older, std::size_t count) const
     {
-        for (const char* name : {map, older})
-            if (const NcArray* array = head_.find(name)) {
-                std::vector<DeckTag> all = head_.wholes(*array, name, count);
-                for (const DeckTag tag : all)
-                    if (tag < 0) cursor_.fail("{} has the number {}", name, tag);
-                return all;
-            }
-        std::vector<DeckTag> all(count);
-        for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<DeckTag>(i) + 1;
+        const char* const name = head_.find(map) != nullptr ? map : older;
+        std::vector<DeckTag> all = ids(name, count);
+        for (const DeckTag tag : all)
+            if (tag < 0) cursor_.fail("{} has the number {}", name, tag);
         return all;
     }
 
@@ -285,12 +281,13 @@ private:
         return all;
     }
 
+    /// Whole numbers from an array, or from 1 up if there is no such array.
     std::vector<std::int64_t> ids(const std::string& array, std::size_t count) const
     {
         if (const NcArray* known = head_.find(array)) return head_.wholes(*known, array, count);
         cursor_.plausible(count, 4, 1);
-        std::vector<std::int64_t> all;
-        for (std::size_t i = 1; i <= count; ++i) all.push_back(static_cast<std::int64_t>(i));
+        std::vector<std::int64_t> all(count);
+        std::iota(all.begin(), all.end(), 1);
         return all;
     }
 
