@@ -154,25 +154,20 @@ private:
         const MeshView::Set& set = view_->sets[s];
         if (set.kind == SetKind::sides) return add_segments(set);
         if (set.count == 0) return;
-        if (set.kind == SetKind::nodes) return add_members(s, "*SET_NODE_LIST_TITLE", numbers_of(s));
-        std::vector<std::size_t> of[2]; // solids, shells
+        if (set.kind == SetKind::nodes) return add_members(s, "*SET_NODE_LIST_TITLE", set.members);
+        mesh::Ranges of[2]; // solids, shells
         if (shells_.empty())
             shells_ = tags_of_blocks(*view_,
                                      [](const auto& b) { return shape_info(b.shape).dimension == 2; });
-        if (shells_.empty()) return add_members(s, "*SET_SOLID_TITLE", numbers_of(s));
+        if (shells_.empty()) return add_members(s, "*SET_SOLID_TITLE", set.members);
         set.members.each(0, set.count, [&](std::size_t, DeckTag tag) {
-            of[std::ranges::binary_search(shells_, tag) ? 1 : 0].push_back(static_cast<std::size_t>(tag));
+            of[std::ranges::binary_search(shells_, tag) ? 1 : 0].add(index(tag), index(tag) + 1);
         });
-        for (const std::size_t k : {0, 1}) {
-            mesh::Ranges members;
-            for (const std::size_t tag : of[k]) members.add(tag, tag + 1);
-            if (!of[k].empty())
+        for (const std::size_t k : {0, 1})
+            if (const std::size_t count = of[k].count(); count > 0)
                 add_members(s, k == 0 ? "*SET_SOLID_TITLE" : "*SET_SHELL_LIST_TITLE",
-                            mesh::Numbers(std::move(members)), of[k].size());
-        }
+                            mesh::Numbers(std::move(of[k])), count);
     }
-
-    [[nodiscard]] mesh::Numbers numbers_of(std::size_t s) const { return view_->sets[s].members; }
 
     std::string head_of(const MeshView::Set& set, const std::string& keyword)
     {

@@ -25,8 +25,10 @@ class CardWriter {
 public:
     void begin() { fields_.clear(), used_ = 0; }
     void add(std::string_view field) { fields_.push_back(field); }
+    /// @param number  negative: the field is blank
     void add_number(DeckTag number)
     {
+        if (number < 0) return add({});
         add_digits([&](char* at) { return put_text(at, number); });
     }
     void add_real(double value)
@@ -135,16 +137,10 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
         card.begin();
         card.add_number(tag);
         const int property = region < 0 ? 0 : view->regions[index(region)].tag;
-        if (property > 0)
-            card.add_number(property);
-        else
-            card.add({});
+        card.add_number(property > 0 ? property : -1);
         for (std::size_t k = 0; k < nodes; ++k) {
             const Index node = element[places[k]];
-            if (node < 0)
-                card.add({});
-            else
-                card.add_number(view->point_tags[index(node)]);
+            card.add_number(node < 0 ? -1 : view->point_tags[index(node)]);
         }
         card.add_text(text_of(more, e));
         return card.put(out, name);

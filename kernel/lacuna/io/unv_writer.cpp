@@ -29,10 +29,8 @@ char* put_double(char* out, double value)
 
 std::string columns(std::initializer_list<long long> numbers)
 {
-    std::string text(numbers.size() * kNumberBytes, '\0');
-    char* out = text.data();
-    for (const long long number : numbers) out = put_right(out, number, kColumn);
-    text.resize(static_cast<std::size_t>(out - text.data()));
+    std::string text;
+    for (const long long number : numbers) text += formatted("{:>10}", number);
     return text + "\n";
 }
 
