@@ -138,20 +138,6 @@ private:
     std::thread::id thread_ = std::this_thread::get_id();
 };
 
-/// Collect a value from each process of a team.
-template <class Value>
-std::vector<Value> gather_values(const Team* team, Value own)
-{
-    Writer writer;
-    writer(own);
-    std::vector<Value> all;
-    for (const std::string& said : gather(team, std::move(writer).take())) {
-        Reader reader(said);
-        reader(all.emplace_back());
-    }
-    return all;
-}
-
 using WriteAt = std::function<void(std::uint64_t offset, std::string_view bytes)>;
 
 /// Write chunks whose offsets are known: while one thread fills, another writes.
@@ -192,9 +178,11 @@ void write_varying(const std::vector<Chunk>& chunks, const WriteAt& write, Share
             for (std::size_t i = low; i < high; ++i) filled[i] = buffers[i].filled(chunks[from + i]);
         });
         check_cancelled(context);
-        std::uint64_t own = 0;
-        for (std::size_t i = 0; i < count; ++i) own += filled[i].size();
-        const std::vector<std::uint64_t> lengths = gather_values(team, own);
+        std::uint64_t length = 0;
+        for (std::size_t i = 0; i < count; ++i) length += filled[i].size();
+        Writer own;
+        own(length);
+        const auto lengths = gathered<std::uint64_t>(team, std::move(own));
         const std::ptrdiff_t before = team != nullptr ? team->rank : 0; // processes before this one
         std::uint64_t at = std::accumulate(lengths.begin(), lengths.begin() + before, offset);
         offset = std::accumulate(lengths.begin(), lengths.end(), offset);
@@ -280,8 +268,9 @@ private:
     /// Whether all processes can open the files of rank 0. The system may forbid it.
     [[nodiscard]] bool all_can_open() const
     {
-        const std::int8_t can = ::access(names_.front().c_str(), W_OK) == 0 ? 1 : 0;
-        return std::ranges::count(gather_values(team_, can), 0) == 0;
+        Writer own;
+        own(std::int8_t(::access(names_.front().c_str(), W_OK) == 0 ? 1 : 0));
+        return std::ranges::count(gathered<std::int8_t>(team_, std::move(own)), 0) == 0;
     }
 
     const Team* team_;

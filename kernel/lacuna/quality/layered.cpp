@@ -54,19 +54,6 @@ void put(A& with, Own& quality)
     with(quality.histogram), with(quality.volume), with(quality.worst), with(quality.least_by_kind);
 }
 
-/// The results of all slabs, in their order. Each process of the team contributes the slabs that it measured.
-template <class Value, class Read>
-std::vector<Value> gathered(const Team* team, Writer own, std::size_t count, const Read& read)
-{
-    std::vector<Value> all;
-    all.reserve(count);
-    for (const std::string& bytes : gather(team, std::move(own).take())) {
-        Reader reader(bytes);
-        while (!reader.is_empty()) all.push_back(read(reader));
-    }
-    return all;
-}
-
 /// An oriented box of a slab: its first axis points from the lowest level to the highest.
 void lay_box(std::span<const Vec3> nodes, std::size_t row, SlabPlace& place)
 {
@@ -219,19 +206,6 @@ void put_place(A& with, Own& place)
     for (int d = 0; d < 9; ++d) with(place.frame.data()[d]);
 }
 
-struct MeasuredSlab {
-    Quality quality;
-    SlabPlace place;
-};
-
-MeasuredSlab read_slab(Reader& reader)
-{
-    MeasuredSlab found;
-    put(reader, found.quality);
-    put_place(reader, found.place);
-    return found;
-}
-
 /// The extent of the nodes of a slab.
 /// @param first  the lowest level of the slab
 /// @param row    number of nodes per level
@@ -291,12 +265,7 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
         take(FarPairs(layered, slabs, {places.begin(), places.end()}, bounds, tolerance, context).first());
     Writer own_pair;
     if (least) own_pair(*least);
-    for (const auto& pair : gathered<std::array<Index, 2>>(team, std::move(own_pair), 1, [](Reader& reader) {
-             std::array<Index, 2> found;
-             reader(found);
-             return found;
-         }))
-        take(pair);
+    for (const auto& pair : gathered<std::array<Index, 2>>(team, std::move(own_pair))) take(pair);
     if (!least) return std::nullopt;
     return coincident_nodes(name_of_node(layered, (*least)[0], context),
                             name_of_node(layered, (*least)[1], context));
@@ -322,10 +291,10 @@ MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, co
         put_place(own_found, place);
     });
     // Sum in the order of the slabs, so that the result does not depend on which process measured them.
-    for (MeasuredSlab& slab_found :
-         gathered<MeasuredSlab>(team, std::move(own_found), slabs.size(), read_slab)) {
-        Quality& own = slab_found.quality;
-        measured.slabs.push_back(std::move(slab_found.place));
+    const auto add_slab = [&](Reader& reader) {
+        Quality own;
+        put(reader, own);
+        put_place(reader, measured.slabs.emplace_back());
         all.hexes += own.hexes;
         all.wedges += own.wedges;
         for (std::size_t k = 0; k < own.least_by_kind.size(); ++k)
@@ -336,7 +305,9 @@ MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, co
         sum += own.mean_scaled_jacobian * static_cast<double>(own.cells());
         for (std::size_t b = 0; b < own.histogram.size(); ++b) all.histogram[b] += own.histogram[b];
         for (const WorstCell& cell : own.worst) worst.offer(cell, cell.cell % mesh.quads.size());
-    }
+    };
+    for (const std::string& bytes : gather(team, std::move(own_found).take()))
+        for (Reader reader(bytes); !reader.is_empty();) add_slab(reader);
     if (all.cells() == 0) return measured;
     all.mean_scaled_jacobian = sum / static_cast<double>(all.cells());
     for (const auto& [cell, column] : worst.entries) all.worst.push_back(cell);
@@ -350,13 +321,7 @@ double mean_volume(const LayeredMesh& layered, const RunContext& context, const 
     each_slab(layered, slabs_of(layered.mesh), team, context, [&](const Slab&, const HexMesh& cells) {
         for (const double volume : layer_volumes(cells, context)) own(volume);
     });
-    const auto layers = gathered<double>(team, std::move(own), static_cast<std::size_t>(layered.mesh.layers),
-                                         [](Reader& reader) {
-                                             double volume = 0;
-                                             reader(volume);
-                                             return volume;
-                                         });
-    return mean_volume(layers, layered.mesh.cell_count());
+    return mean_volume(gathered<double>(team, std::move(own)), layered.mesh.cell_count());
 }
 
 Proof prove(const LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,

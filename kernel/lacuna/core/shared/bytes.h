@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/fields.h>
+#include <lacuna/core/shared/team.h>
 #include <lacuna/core/types.h>
 
 #include <array>
@@ -176,5 +177,18 @@ private:
     }
     std::string_view left_;
 };
+
+/// The values that the processes of a team wrote, by rank. Each process writes any number of them.
+/// @throw TeamFailed  as `gather()`
+template <class Value>
+std::vector<Value> gathered(const Team* team, Writer own)
+{
+    std::vector<Value> all;
+    for (const std::string& bytes : gather(team, std::move(own).take())) {
+        Reader reader(bytes);
+        while (!reader.is_empty()) reader(all.emplace_back());
+    }
+    return all;
+}
 
 } // namespace lacuna
