@@ -3,12 +3,17 @@
 
 #include <lacuna/io/deck.h>
 
-#include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 
 namespace lacuna::io {
+
+/// Whether a word is in a list of words with blanks between them.
+inline bool has_word(std::string_view words, std::string_view word)
+{
+    return !word.empty() &&
+           (" " + std::string(words) + " ").find(" " + std::string(word) + " ") != std::string::npos;
+}
 
 /// A file format and its capabilities, one row of the table of formats. To add a format, write its reader or
 /// writer, its row in formats.cpp and its row in docs/reference.md.
@@ -41,10 +46,7 @@ struct Format {
     bool has_contacts = false; ///< pairs of `MeshDeckOptions::contacts` are written
     bool has_node_sets = true; ///< if false, sets contain sides only
 
-    [[nodiscard]] bool has_option(std::string_view option) const
-    {
-        return (" " + std::string(options) + " ").find(" " + std::string(option) + " ") != std::string::npos;
-    }
+    [[nodiscard]] bool has_option(std::string_view option) const { return has_word(options, option); }
 };
 
 /// The format of a path, by its file extension or the name of the folder; null: unknown.

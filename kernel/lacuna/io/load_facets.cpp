@@ -19,12 +19,6 @@
 namespace lacuna::io {
 namespace {
 
-bool is_among(std::string_view endings, const std::string& ending)
-{
-    return !ending.empty() &&
-           (" " + std::string(endings) + " ").find(" " + ending + " ") != std::string::npos;
-}
-
 void check_options(const LoadOptions& options)
 {
     if (!(options.scale > 0) || !std::isfinite(options.scale)) {
@@ -43,7 +37,7 @@ void check_options(const LoadOptions& options)
 double scale_of_cad(const std::vector<std::string>& paths, const std::string& unit)
 {
     const auto states = [](const std::string& path) {
-        return is_among(".step .stp .iges .igs", ending_of(path));
+        return has_word(".step .stp .iges .igs", ending_of(path));
     };
     const auto stating = static_cast<std::size_t>(std::ranges::count_if(paths, states));
     if (unit.empty() || stating == 0) return 1;
@@ -241,7 +235,7 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
     std::vector<std::string> other, facets;
     for (const std::string& path : paths) {
         check_file(path);
-        const bool is_other = is_among(others.endings, ending_of(path));
+        const bool is_other = has_word(others.endings, ending_of(path));
         if (!is_other) needed_reader(path, others.endings);
         (is_other ? other : facets).push_back(path);
     }
