@@ -207,14 +207,12 @@ private:
             array.offset = *offset;
         }
         Piece& piece = pieces_.back();
-        if (section_ == "Points")
-            piece.at = array;
-        else if (tag["Name"] == "connectivity")
-            piece.connectivity = array;
-        else if (tag["Name"] == "offsets")
-            piece.offsets = array;
-        else if (tag["Name"] == "types")
-            piece.types = array;
+        Array* const own = section_ == "Points"            ? &piece.at
+                           : tag["Name"] == "connectivity" ? &piece.connectivity
+                           : tag["Name"] == "offsets"      ? &piece.offsets
+                           : tag["Name"] == "types"        ? &piece.types
+                                                           : nullptr;
+        if (own != nullptr) *own = array;
     }
 
     void read_appended(const XmlTag& tag)

@@ -57,9 +57,6 @@ std::string prefix_beside(const std::string& name, const char* state)
     return "." + name.substr(0, kLongest) + "." + state + "-";
 }
 
-std::string unfinished_prefix(const std::string& name) { return prefix_beside(name, "unfinished"); }
-std::string replacing_prefix(const std::string& name) { return prefix_beside(name, "replacing"); }
-
 std::string numbered(const std::string& prefix, std::uint64_t number)
 {
     return formatted("{}{}-{}", prefix, ::getpid(), number);
@@ -219,7 +216,7 @@ void WholeFile::remove_left_over(const std::string& prefix,
 
 void WholeFile::open_named()
 {
-    const std::string prefix = unfinished_prefix(name_);
+    const std::string prefix = prefix_beside(name_, "unfinished");
     remove_left_over(prefix, [](const LeftOver& file) {
         const bool runs = ::kill(file.process, 0) == 0 || errno != ESRCH;
         return !runs && std::time(nullptr) - file.written >= kLeftOver;
@@ -324,7 +321,7 @@ void WholeFile::publish_unnamed()
     // two system calls. Its lock shows that it is not abandoned. The number of its process would not show
     // this, because containers reuse process numbers.
     ::flock(descriptor_, LOCK_EX | LOCK_NB);
-    const std::string prefix = replacing_prefix(name_);
+    const std::string prefix = prefix_beside(name_, "replacing");
     remove_left_over(prefix, [](const LeftOver& file) { return is_abandoned(file.folder, file.name); });
     // Use a name that nobody has used before. A process that removes an abandoned file then cannot remove
     // this one.
