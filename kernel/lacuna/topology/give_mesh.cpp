@@ -171,6 +171,12 @@ public:
         for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
         for (std::size_t e = 0; e < model_.edges.size(); ++e) drop_folded(EdgeId(e));
         for (const FaceId f : collapsed) drop_bubbles(model_[f]);
+        for (std::size_t f = 0; f < model_.faces.size(); ++f)
+            if (FaceId(f) != replaced && model_.faces[f].triangles.empty())
+                throw InvalidInput(Message("topology.face_vanishes",
+                                           "{} has no area left between the nodes on its edges",
+                                           entity_of(given_, FaceId(f)))
+                                       .remedy("use a smaller 'size'"));
         // Drop points that are no longer used, and removed seams.
         ModelBuilder whole(extract(model_, all_faces(model_)));
         whole.notes = given_.notes;

@@ -24,7 +24,7 @@ std::set<EdgeId> kept_edges(const Model& model);
 /// The edges become polylines through their nodes and lose their exact curves. Adjacent facets are split at
 /// the nodes. Old points of the edges move to the nearest node along the edge.
 /// @throw InvalidInput "topology.nodes_off_edge"  the nodes of an edge are not in its order, or are too few;
-///         names the edge.
+///         names the edge. "topology.face_vanishes"  the nodes leave no area of an adjacent face.
 /// @note  O(facets + nodes × points of an edge).
 void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges);
 
@@ -41,7 +41,7 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges);
 ///         correspond one to one to the face's loops, or a rim node does not lie on a loop.
 ///         "topology.mesh_misses_vertex"  a vertex with edges of other faces has no node.
 ///         "topology.meshes_differ"  an adjacent face has a given mesh with another number of nodes on the
-///         common edge. Names the face, the vertex or the edge.
+///         common edge. Names the face, the vertex or the edge. "topology.face_vanishes"  as above.
 /// @note  O(facets + quads + nodes of the rim × points of the loop).
 void give_mesh(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads);
 
