@@ -9,6 +9,8 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/give_mesh.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <doctest/doctest.h>
 #include <gmsh.h>
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 using namespace lacuna;
 namespace occ = gmsh::model::occ;
@@ -247,4 +250,45 @@ TEST_CASE("solids with poles and tips are written as CAD, whole or with a wall m
             if (known) CHECK(written.volume == doctest::Approx(shape.volume).epsilon(1e-3));
         }
     }
+}
+
+TEST_CASE("a seam keeps no points without facets when the rims beside it get few nodes")
+{
+    const test::TempFolder folder;
+    for (const double height : {0.02, 0.05, 0.13, 0.4})
+        for (const std::size_t count : {4, 5, 7, 12})
+            for (const double start : {0.0, 0.3, 0.9}) {
+                CAPTURE(height);
+                CAPTURE(count);
+                CAPTURE(start);
+                const std::string file = folder.gmsh(
+                    "ring.brep", [&] { gmsh::model::occ::addCylinder(0, 0, 0, 0, 0, height, 1, 1); });
+                topology::Model model = cad::load({file});
+                const std::size_t faces = model.faces.size();
+                topology::OpenVolume volume{std::move(model), {faces, topology::Role::wall}, {}};
+                std::vector<topology::EdgeNodes> given;
+                for (std::size_t e = 0; e < volume.model.edges.size(); ++e) {
+                    const topology::Edge& edge = volume.model.edges[e];
+                    if (edge.from != edge.to) continue;
+                    const Vec3 a = volume.model.at(edge.points[0]), b = volume.model.at(edge.points[1]);
+                    const double way = a.cross(b).z() > 0 ? 1 : -1;
+                    topology::EdgeNodes& nodes = given.emplace_back();
+                    nodes.edge = EdgeId(e);
+                    for (std::size_t i = 0; i <= count; ++i) {
+                        const double share = (static_cast<double>(i % count) + start) /
+                                             static_cast<double>(count);
+                        const double angle = std::atan2(a.y(), a.x()) + way * 2 * std::numbers::pi * share;
+                        nodes.nodes.emplace_back(std::cos(angle), std::sin(angle), a.z());
+                    }
+                }
+                CHECK(given.size() == 2);
+                topology::give_edge_nodes(volume, given);
+                const topology::Model& made = volume.model;
+                for (const topology::Face& face : made.faces) {
+                    std::set<Index> points;
+                    for (const Triangle& t : face.triangles) points.insert(t.begin(), t.end());
+                    for (const topology::EdgeUse& use : topology::uses_of(face))
+                        for (const Index p : made[use.edge].points) CHECK(points.contains(p));
+                }
+            }
 }
