@@ -12,6 +12,12 @@ local bodies = {
     local r = random(0.5, 2)
     return ("Sphere(1) = {%.15g, 1, 2, %.15g};"):format(random(-1, 1), r), 4 / 3 * math.pi * r ^ 3
   end,
+  -- A single smooth face, without the centre of a sphere.
+  ellipsoid = function(random)
+    local a, b, c = random(0.8, 1.6), random(0.8, 1.6), random(0.8, 1.6)
+    return ("Sphere(1) = {0, 0, 0, 1}; Dilate{ {0, 0, 0}, {%.15g, %.15g, %.15g} }{ Volume{1}; }")
+        :format(a, b, c), 4 / 3 * math.pi * a * b * c
+  end,
   lens = function(random)
     local r, apart = random(0.8, 1.2), random(0.7, 1.1)
     local high = r - apart / 2
@@ -98,6 +104,23 @@ for name, room in pairs(rooms) do
   local quality = lacuna.load(path):open_volume {}:sweep({ size = 3 }):quality()
   check.near(quality.volume, room[2], 0.05 * room[2]) -- three cells across a ring
   check.that(quality.certified and quality.min_scaled_jacobian > 0.3, name)
+end
+
+-- A bent tube with a round end: joining its faces that continue each other gives the same ends again. It is
+-- refused or filled, not joined for ever.
+for number = 1, check.whole and 4 or 1 do
+  local random = check.random(104729 * number)
+  local r, turn = random(0.5, 0.9), random(1.2, 1.6)
+  local file = ("%s/bent%d.geo"):format(params.scratch, number)
+  check.write(file, ([[
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, -2, 0, 0, 2, %.15g};  Disk(99) = {0, 0, 0, %.15g};
+t[] = Extrude{ {0, 1, 0}, {2, 0, 0}, %.15g }{ Surface{99}; };
+Sphere(50) = {2 - 2 * Cos(%.15g), 0, 2 * Sin(%.15g), %.15g};
+BooleanUnion(60) = { Volume{1}; Delete; }{ Volume{t[1]}; Delete; };
+BooleanUnion(61) = { Volume{60}; Delete; }{ Volume{50}; Delete; };]]):format(r, r, turn, turn, turn, r))
+  local ok, why = pcall(function() return lacuna.load(file):open_volume {}:sweep {} end)
+  check.that(ok or why.code == "surface.wall_edge", tostring(why))
 end
 
 -- The parameters of a sphere that the poles bound may end a rounding error beyond them, where normals point

@@ -41,8 +41,8 @@ std::vector<Vec3> axes_of(const topology::OpenVolume& volume, bool both);
 std::vector<StepPiece> divided_where_turning(const topology::OpenVolume& volume, std::size_t most,
                                              const CanSweep& can_sweep, const RunContext& context);
 
-/// Cut a volume by three planes at right angles through the centre of a sphere or the apex of a cone.
-/// Example: a ball is cut into octants. A part without ends is divided at its middle. Empty if no centre
+/// Cut a volume by three planes at right angles through the centre of a sphere or the apex of a cone, or, if
+/// there are none, through the mean of its vertices. Example: a ball is cut into octants. A part without ends is divided at its middle. Empty if no centre
 /// gives parts that can be swept or divided in this way.
 std::vector<StepPiece> divided_at_centre(const topology::OpenVolume& volume, std::size_t most,
                                          const CanSweep& can_sweep, const RunContext& context);

@@ -34,7 +34,8 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - at its middle (`midpoint_blocks()`);
 /// - across an edge between coplanar faces;
 /// - across an axis where smooth parts of the skin turn over, such as a ring in a cup;
-/// - at a centre: by three perpendicular planes through the centre of a sphere or the apex of a cone;
+/// - at a centre: by three perpendicular planes through the centre of a sphere or the apex of a cone, or
+///   through the mean of the vertices;
 /// - at vertices: by planes through edges of vertices with four to six edges.
 ///
 /// A cut is undone if none of the resulting pieces has ends or is divided.
