@@ -42,8 +42,8 @@ std::vector<StepPiece> divided_where_turning(const topology::OpenVolume& volume,
                                              const CanSweep& can_sweep, const RunContext& context);
 
 /// Cut a volume by three planes at right angles through the centre of a sphere or the apex of a cone, or, if
-/// there are none, through the mean of its vertices. Example: a ball is cut into octants. A part without ends is divided at its middle. Empty if no centre
-/// gives parts that can be swept or divided in this way.
+/// there are none, through the mean of its vertices. Example: a ball is cut into octants. A part without ends
+/// is divided at its middle. Empty if no centre gives parts that can be swept or divided in this way.
 std::vector<StepPiece> divided_at_centre(const topology::OpenVolume& volume, std::size_t most,
                                          const CanSweep& can_sweep, const RunContext& context);
 
