@@ -469,4 +469,21 @@ for number = 1, check.whole and 10 or 1 do
     nil, nil, "cup " .. number)
 end
 
+-- Bores along a diagonal of a box leave over an edge of it: cut through their axes.
+for number = 1, check.whole and 12 or 3 do
+  local random = check.random(6007 * number)
+  local a, b, h = random(2, 4), random(2, 4), random(1.5, 3)
+  local r, long = random(0.12, 0.25) * math.min(a, b, h), math.sqrt(a * a + b * b)
+  local file = ("%s/diagonal%d.geo"):format(params.scratch, number)
+  check.write(file, table.concat({ [[SetFactory("OpenCASCADE");]],
+    ("Box(1) = {0, 0, 0, %s};"):format(row { a, b, h }),
+    cylinder("2", row { -a, -b, h / 2 }, row { 3 * a, 3 * b, 0 }, r), combined("Difference", "2") }, "\n"))
+  local mesh = lacuna.load(file):open_volume {}:sweep {}
+  local quality = mesh:quality()
+  local volume = a * b * h - math.pi * r ^ 2 * long + (a / b + b / a) * 4 / 3 * r ^ 3
+  check.that(quality.certified and mesh.tets == 0, "diagonal")
+  check.near(quality.volume, volume, 0.02 * volume)
+  check.that(quality.min_scaled_jacobian > 0.2, "diagonal: " .. quality.min_scaled_jacobian)
+end
+
 check.done()

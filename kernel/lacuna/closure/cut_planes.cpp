@@ -13,6 +13,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -297,9 +298,21 @@ private:
         }
     }
 
+    /// Whether the rim of a bore goes on at an end of an edge, out of the plane of a flat face.
+    [[nodiscard]] bool leaves_plane(FaceId bore, EdgeId edge, const geometry::Plane& plane) const
+    {
+        const std::array ends{model_[edge].from, model_[edge].to};
+        return std::ranges::any_of(uses_of(model_[bore]), [&](const EdgeUse& use) {
+            const Edge& other = model_[use.edge];
+            const bool meets = std::ranges::any_of(
+                ends, [&](VertexId end) { return other.from == end || other.to == end; });
+            return meets && !is_in_plane(use.edge, plane) && !straight_along(model_, use.edge);
+        });
+    }
+
     /// Add the planes through the axis of a bore that leaves through a bent face, such as the side of a shaft
-    /// or of an elbow. Their normals are the directions in which that face is straightest and most bent: the
-    /// principal axes of the rim, weighted with its heights.
+    /// or of an elbow, or over an edge between flat faces. Their normals are the directions in which that
+    /// face is straightest and most bent: the principal axes of the rim, weighted with its heights.
     void add_at_bent_rims()
     {
         for (const Bend& bend : bends_) {
@@ -310,7 +323,8 @@ private:
             Eigen::Matrix2d moment = Eigen::Matrix2d::Zero(), around = moment;
             for (const EdgeUse& use : uses_of(model_[bend.face])) {
                 const auto is_flat = [&](const FaceUse& user) {
-                    return plane_of(model_, user.face).has_value();
+                    const auto plane = plane_of(model_, user.face);
+                    return plane && !leaves_plane(bend.face, use.edge, *plane);
                 };
                 const std::vector<Vec3> line = use_places(model_, use);
                 if (is_in_plane(use.edge, geometry::plane_across(line.front(), axis)) ||

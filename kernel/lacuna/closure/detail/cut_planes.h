@@ -53,7 +53,7 @@ struct CutPlane {
 ///    faces are the same or share edges). The normals of these planes are those of flat faces and the common
 ///    normals of two axes;
 /// 5. planes through the axes of cylinders that cross each other, and of bores that leave through a bent
-///    face. Such a plane divides a bore into two grooves;
+///    face or over an edge between flat faces. Such a plane divides a bore into two grooves;
 /// 6. planes of concave edges that bend, such as those where pipes meet, and planes that bisect the angles at
 ///    two or more concave edges between flat faces, such as the plane through opposite edges of a square
 ///    window; only regions that adjoin these edges are cut.
