@@ -241,8 +241,8 @@ std::vector<StepPiece> divided_where_turning(const OpenVolume& volume, std::size
 
 namespace {
 
-/// Centres of the spheres and apexes of the cones of a skin, without repetition. If there are none: the mean
-/// of the vertices, such as the centre between the poles of an ellipsoid.
+/// Centres of the spheres and apexes of the cones of a skin, without repetition. If there are none, and the
+/// skin is connected: the mean of the vertices, such as the centre between the poles of an ellipsoid.
 std::vector<Vec3> centres_of(const Model& model)
 {
     std::vector<Vec3> centres;
@@ -258,7 +258,8 @@ std::vector<Vec3> centres_of(const Model& model)
         else if (const auto cone = cone_shape(model, face))
             add(cone->apex);
     }
-    if (!centres.empty() || model.vertices.empty()) return centres;
+    if (!centres.empty() || model.vertices.empty() || connected_parts(model, all_faces(model)).size() > 1)
+        return centres;
     Vec3 sum = Vec3::Zero();
     for (const Vertex& vertex : model.vertices) sum += model.at(vertex.point);
     return {sum / static_cast<double>(model.vertices.size())};
