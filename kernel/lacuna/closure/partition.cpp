@@ -323,8 +323,8 @@ bool make_ledges_walls(OpenVolume& volume, const Vec3& axis)
     return !ledges.empty();
 }
 
-/// Find the ends of pieces of branches and steps that lack one. An end that the cut of a branch made is a wall
-/// of an arm that has steps, because the arm already had ends. A branch may have a round bottom.
+/// Find the ends of pieces of branches and steps that lack one. An end that the cut of a branch made is a
+/// wall of an arm that has steps, because the arm already had ends. A branch may have a round bottom.
 void find_missing_ends(std::vector<StepPiece>& pieces, const RunContext& context)
 {
     if (std::ranges::all_of(pieces, has_ends, &StepPiece::volume)) return;

@@ -345,7 +345,7 @@ void mesh_partitions(PieceMesher& mesher, const Volume& sealed, bool mixed, cons
 std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& context)
 {
     const topology::OpenVolume& open = volume.volume;
-    if (volume.joined || volume.along || open.full_turn || open.override_class) return std::nullopt;
+    if (volume.along || open.full_turn || open.override_class) return std::nullopt;
     const bool named = !volume.roles_found && !volume.no_roles;
     std::vector<int> apart(open.role.size(), 0);
     for (std::size_t f = 0; named && f < apart.size(); ++f) apart[f] = static_cast<int>(open.role[f]);
@@ -376,9 +376,7 @@ std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& 
     } else {
         request.faces = topology::all_faces(joined);
     }
-    Volume anew = open_anew(volume, joined, std::move(request), context);
-    anew.joined = true;
-    return anew;
+    return open_anew(volume, joined, std::move(request), context);
 }
 
 Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunContext& context);

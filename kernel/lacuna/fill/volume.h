@@ -37,7 +37,6 @@ struct Volume {
     bool roles_found = false;                          ///< all roles were found; the user named none
     closure::RolesBy roles_by = closure::RolesBy::person; ///< of a chosen reading: `finding`
     bool told = false;                                    ///< whether the notes of the closure were logged
-    bool joined = false; ///< whether faces that continue each other were joined; they are joined once
     /// For a piece cut at steps: pieces of level 0 run from source to target; the others take the remaining
     /// layers.
     int level = 0;
