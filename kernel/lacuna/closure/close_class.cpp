@@ -16,6 +16,7 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numbers>
 #include <optional>
@@ -218,8 +219,8 @@ std::optional<Vec3> up_a_wall(const OpenVolume& volume)
                     way ? formatted("{:.9g}, {:.9g}, {:.9g}", way->x(), way->y(), way->z()) : "x, y, z"));
 }
 
-/// Whether some loops are flat and look in directions that differ by more than those of one end may, such as
-/// the rims of nozzles on several sides of a vessel. No single face joins them.
+/// Whether some loops are flat and their planes are inclined to each other by more than 70°, such as the rims
+/// of nozzles on several sides of a vessel. No single face joins them.
 bool look_apart(const Model& model, const std::vector<Loop>& loops)
 {
     std::vector<Vec3> normals;
@@ -229,7 +230,7 @@ bool look_apart(const Model& model, const std::vector<Loop>& loops)
         normals.push_back(geometry::newell_vector(places).stableNormalized());
     }
     return std::ranges::any_of(normals, [&](const Vec3& a) {
-        return std::ranges::any_of(normals, [&](const Vec3& b) { return a.dot(b) < -kFacesEnd; });
+        return std::ranges::any_of(normals, [&](const Vec3& b) { return std::abs(a.dot(b)) < kFacesEnd; });
     });
 }
 

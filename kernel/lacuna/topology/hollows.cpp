@@ -327,9 +327,13 @@ bool are_parts_of_bodies(const Model& model, const std::vector<FaceId>& faces)
     std::vector<bool> named(model.faces.size(), false), fits(model.faces.size(), false);
     for (const FaceId face : faces) named[face.index()] = true;
     for (const std::vector<FaceId>& shell : closed_shells(model)) {
-        double balance = 0; // area that is named, less the area that is not [model length²]
-        for (const FaceId face : shell) balance += (named[face.index()] ? 1 : -1) * face_area(model, face);
-        const bool fit = balance < 0 && volume_integral(model, shell) > 0;
+        double part = 0, all = 0; // area that is named, and of the skin [model length²]
+        for (const FaceId face : shell) {
+            const double area = face_area(model, face);
+            all += area;
+            if (named[face.index()]) part += area;
+        }
+        const bool fit = 4 * part < all && volume_integral(model, shell) > 0;
         for (const FaceId face : shell) fits[face.index()] = fit;
     }
     return std::ranges::all_of(faces, [&](FaceId face) -> bool { return fits[face.index()]; });

@@ -56,8 +56,8 @@ std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& 
                                  const RunContext& context = {});
 
 /// Whether each of some faces belongs to a closed body, whose faces point outward, and the faces are less
-/// than half of its skin. They then show on which side their void lies: beside the body. With more of the
-/// skin, the void may be the body without the other faces.
+/// than a quarter of its skin. They then show on which side their void lies: beside the body. With more of
+/// the skin, the void may be the body without the other faces.
 bool are_parts_of_bodies(const Model& model, const std::vector<FaceId>& faces);
 
 /// Whether a sealed volume lies in the material of the bodies to which its given faces belong, by area.
