@@ -294,6 +294,23 @@ BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]]):format(
   end
 end
 
+-- Reducing tees: the circle at the small end of the cone is no mouth, wherever the branch is.
+for _, member in ipairs { { 40, 25, -60, 20 }, { 40, 30, -40, 15 }, { 25, 40, 85, 20 },
+  { 40, 25, 100, 12 } } do
+  local left, right, at, radius = table.unpack(member)
+  local file = params.scratch .. "/reducer.geo"
+  check.write(file, ([[SetFactory("OpenCASCADE");
+Cylinder(1) = {-120, 0, 0, 120, 0, 0, %g}; Cone(2) = {0, 0, 0, 40, 0, 0, %g, %g};
+Cylinder(3) = {40, 0, 0, 100, 0, 0, %g}; Cylinder(4) = {%g, 0, 0, 0, 0, 90, %g};
+BooleanUnion(5) = { Volume{1}; Delete; }{ Volume{2:4}; Delete; };]]):format(
+    left, left, right, right, at, radius))
+  local mesh = lacuna.load(file):open_volume():sweep { size = 8 }
+  local quality = mesh:quality()
+  check.that(quality.certified and mesh.tets == 0 and quality.min_scaled_jacobian > 0.3,
+    ("reducing tee with a branch at %g: %.3f"):format(at, quality.min_scaled_jacobian))
+  check.near(quality.volume, mesh.fidelity.sealed_volume, 0.02 * quality.volume)
+end
+
 -- Blind branches with a round bottom.
 for _, radius in ipairs { 15, 24 } do
   local file = params.scratch .. "/blind.geo"

@@ -50,7 +50,11 @@ public:
         for (bool again = true; again;) {
             find_regions();
             while (join_hub()) find_regions();
-            again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
+            // A line around the main body goes first: without it, the body has both ends of the sweep.
+            const auto is_no_mouth = [&](Mouth& mouth) { return !set_sides(mouth); };
+            again = std::erase_if(result_.mouths,
+                                  [&](Mouth& mouth) { return is_no_mouth(mouth) && is_around(mouth); }) > 0 ||
+                    std::erase_if(result_.mouths, is_no_mouth) > 0;
             for (Mouth& mouth : result_.mouths) {
                 if (!mouth.fillet.valid() || result_.region[mouth.fillet.index()] != mouth.host) continue;
                 std::swap(mouth.edges, mouth.beyond);
@@ -206,16 +210,34 @@ private:
         return (faces_void ? sum : -sum) / static_cast<double>(near.size()) / kDegree;
     }
 
-    void find_regions()
+    /// The faces that edges join, without `barred` edges.
+    [[nodiscard]] geometry::UnionFind parts_between(const std::set<EdgeId>& barred) const
     {
-        std::set<EdgeId> barred;
-        for (const Mouth& mouth : result_.mouths) barred.insert(mouth.edges.begin(), mouth.edges.end());
         geometry::UnionFind sets(model_.faces.size());
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             if (barred.contains(EdgeId(e))) continue;
             const std::span<const FaceUse> uses = model_.uses_of_edge(EdgeId(e));
             for (const FaceUse& use : uses) sets.unite_least(uses.front().face.index(), use.face.index());
         }
+        return sets;
+    }
+
+    /// Whether a line separates the source from the target, such as the small end of a reducer.
+    [[nodiscard]] bool is_around(const Mouth& mouth) const
+    {
+        geometry::UnionFind sets = parts_between({mouth.edges.begin(), mouth.edges.end()});
+        std::set<std::size_t> at_source, at_target;
+        for (const FaceId end : ends_)
+            (volume_.role[end.index()] == Role::source ? at_source : at_target)
+                .insert(sets.find(end.index()));
+        return std::ranges::none_of(at_source, [&](std::size_t own) { return at_target.contains(own); });
+    }
+
+    void find_regions()
+    {
+        std::set<EdgeId> barred;
+        for (const Mouth& mouth : result_.mouths) barred.insert(mouth.edges.begin(), mouth.edges.end());
+        geometry::UnionFind sets = parts_between(barred);
         std::map<std::size_t, std::size_t> number;
         result_.region.clear();
         result_.faces.clear();
