@@ -126,7 +126,7 @@ local corner = open(lacuna.synthetic.prism { sides = 4, radius = 1, height = 1 }
   :cut { plane = { { 0.8, 0, 0.9 }, { 1, 0, 1 } } }
 local function joins(options) return lacuna.assembly(corner):sweep(options) end
 check.fails(function() joins { size = 0.2 } end, "closure.no_ends", "volume_2 has ",
-  'face 2 "target"', 'void face 1 "cut_1"', "leave_out")
+  'face 2 "target"', 'void face 1 "cut_1"', "cut the volume otherwise", "leave_out")
 local left = joins { size = 0.2, fallback = "leave_out" }
 check.equal(left.left_out[1].code, "closure.no_ends")
 check.fails(function()

@@ -439,7 +439,7 @@ void check_ends(const OpenVolume& volume, const std::string& what)
                                     entities_of(model, walls));
     if (is_piece)
         throw NotSweepable(
-            std::move(message).remedy("move or tilt the plane, or set fallback = \"leave_out\""));
+            std::move(message).remedy("cut the volume otherwise, or set fallback = \"leave_out\""));
     throw NotSweepable(std::move(message).remedy("name the {} among them", missing));
 }
 

@@ -41,7 +41,7 @@ std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids
             }
         }
         if (longest == nullptr) continue;
-        const std::string found = formatted("the rim of {} was given with {} sides, an odd number",
+        const std::string found = formatted("the rim of {} has {} sides, an odd number",
                                             entity_of(task.model, face), sides_of(task.model, seeds, face));
         if (task.wedges) {
             seeds.notes.push_back(found + ": one cell of the face is a triangle");
@@ -74,7 +74,8 @@ void check_even(const SeedTask& task, const FaceGrids& grids, const std::set<Fac
                                        "the loops of {} have an odd total of sides, and no edge of the face "
                                        "can take another side",
                                        entity_of(task.model, face))
-                                   .remedy("give fewer edges a fixed number of sides"));
+                                   .remedy("give another 'size', cut the volume otherwise, or load a mesh it "
+                                           "keeps with keep_mesh = false"));
         throw NotSweepable(Message("surface.sides_asked",
                                    "intervals: the loops of {} have an odd total of {} sides, which quads "
                                    "cannot fill, and no edge can take another side",

@@ -116,12 +116,16 @@ private:
     {
         for (const FaceId face : split_) {
             if (base_.model[face].given_quads.empty()) continue;
+            // Quads on a cut are those of the piece beside it.
+            const bool is_cut = base_.model[face].origin == Origin::made_void;
             throw NotSweepable(Message("surface.not_imprinted",
                                        "{} lies inside one end and cannot be imprinted on the other: {} "
-                                       "keeps its given quads and cannot be split",
-                                       entity_of(base_.model, inner_.front()), entity_of(base_.model, face))
-                                   .remedy("load with keep_mesh = false, or choose a target that is a single "
-                                           "face"));
+                                       "keeps {} and cannot be split",
+                                       entity_of(base_.model, inner_.front()), entity_of(base_.model, face),
+                                       is_cut ? "the quads of the piece beside it" : "its given quads")
+                                   .remedy("{}, or choose a target that is a single face",
+                                           is_cut ? "cut the volume otherwise, give another 'size'"
+                                                  : "load with keep_mesh = false"));
         }
     }
 
