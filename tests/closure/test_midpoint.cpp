@@ -87,10 +87,10 @@ TEST_CASE("a volume whose vertices have three edges falls into one block for eac
     }
 }
 
-TEST_CASE("a volume with other vertices, with holes, closed edges or folded blocks is divided without a loss")
+TEST_CASE("a volume with other vertices, with holes, closed edges or folded blocks loses nothing")
 {
-    // Closed edges; holes; a wall of two pieces, whose common edge is flat; a corner that is nearly flat. These
-    // are not divided at their middles, but some at the mean of their vertices.
+    // Closed edges; holes; a wall of two pieces, whose common edge is flat; a corner that is nearly flat.
+    // These are not divided at their middles, but some at the mean of their vertices.
     const std::vector<Vec2> flat{{-1, -1}, {1, -1}, {1.02, 0}, {1, 1}, {-1, 1}};
     for (const auto& options :
          {test::PrismOptions{.sides = 0}, test::PrismOptions{.sides = 4, .holes = 1, .hole_sides = 0},
