@@ -29,7 +29,7 @@
 ---@field area? { [1]: number, [2]: number } smallest and largest area [model length²]
 
 ---@class lacuna.LoadOptions
----@field tolerance? number gaps narrower than this are closed [model length]; default 1e-6 × the diagonal of the bounding box
+---@field tolerance? number gaps narrower than this are closed [model length]; default 1e-6 × the diagonal, more where coordinates are rounded
 ---@field feature_angle? number facets are divided into faces along edges with at least this angle [degrees]; default 40
 ---@field keep_mesh? boolean quads and nodes of the input are kept as a mesh; default true
 ---@field keep_noise? boolean points of noisy facets, for example from a scan, are not moved; default false: they are smoothed

@@ -73,7 +73,7 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
     for (const Vec3& p : points) box.extend(p);
     facets.diagonal = box.diagonal().norm();
     check_size(box.min(), box.max(), facets.diagonal);
-    facets.tolerance = tolerance > 0 ? tolerance : kFileAccuracy * facets.diagonal;
+    facets.tolerance = tolerance > 0 ? tolerance : std::max(kFileAccuracy * facets.diagonal, soup.rounding);
 
     const std::vector<Index> joined = weld(points, facets.tolerance, context);
     const std::vector<Index> kept = keep_if(

@@ -13,6 +13,7 @@
 #include <lacuna/healing/shared/weld.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_view.h>
+#include <lacuna/io/detail/rounding.h>
 #include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
@@ -84,7 +85,7 @@ constexpr Index kSingles = -2; ///< region of the label that shells share if eac
 class Facets {
 public:
     Facets(const Deck& deck, double tolerance)
-        : deck_(deck), tolerance_(tolerance), shells_(deck, 2), solids_(deck, 3)
+        : deck_(deck), tolerance_(tolerance), rounding_(rounding_of(deck)), shells_(deck, 2), solids_(deck, 3)
     {
     }
 
@@ -99,6 +100,7 @@ public:
         emit();
         name_labels();
         file_.notes = deck_.notes;
+        file_.soup.rounding = rounding_;
         if (shared_by_many_ > 0)
             file_.notes.push_back(formatted(
                 "{}: {} sides are shared by more than two solids, which overlap or are listed twice",
@@ -196,8 +198,9 @@ private:
     {
         Eigen::AlignedBox3d box;
         for (const Vec3& p : deck_.points) box.extend(p);
-        return healing::weld(deck_.points,
-                             tolerance_ > 0 ? tolerance_ : kFileAccuracy * box.diagonal().norm());
+        return healing::weld(deck_.points, tolerance_ > 0
+                                               ? tolerance_
+                                               : std::max(kFileAccuracy * box.diagonal().norm(), rounding_));
     }
 
     /// Process the sides and shells with the same corners, solids first.
@@ -384,7 +387,7 @@ private:
     }
 
     const Deck& deck_;
-    double tolerance_;
+    double tolerance_, rounding_;
     Elements shells_, solids_;
     SetLists lists_;
     std::vector<int> sets_of_shell_;                                    ///< list of sets of each shell

@@ -15,7 +15,7 @@ namespace lacuna::io {
 /// them. A shell replaces the sides of solids on which it lies. Sets of a single shell are ignored. If more
 /// than 20 labels would have only one shell, these shells share a label. Nodes within the tolerance of each
 /// other count as one, so that touching parts share sides.
-/// @param tolerance  [the deck's length]; 0: 1e-6 × the diagonal.
+/// @param tolerance  [the deck's length]; 0: 1e-6 × the diagonal, or `rounding_of()` if that is larger.
 /// @throw InvalidInput "io.no_faces"
 /// @note  O(n) in the elements; O(n log n) if tags have large gaps.
 FacetFile facets_of(const Deck& deck, double tolerance = 0);
