@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace lacuna::closure {
 
@@ -34,11 +35,23 @@ struct Candidate {
     double volume = 0; ///< about the volume [model length³]
 };
 
-/// Hollows that share a whole rim, merged, each before its parts; in the order of their first faces.
+/// Hollows with the bodies that stand in them, and those that share a whole rim merged, each before its
+/// parts; in the order of their first faces.
 std::vector<Candidate> candidates(const Model& model, const RunContext& context)
 {
-    const std::vector<Hollow> found = hollows(model, context);
+    std::vector<Hollow> found = hollows(model, context);
     const std::vector<std::size_t> first = joined_hollows(model, found);
+    std::vector<Hollow> alone; // without what may stand in them, if other hollows are part of that
+    for (Hollow& hollow : found) {
+        if (hollow.inside.empty()) continue;
+        const auto shares = [&](const Hollow& other) {
+            return std::ranges::find_first_of(other.faces, hollow.inside) != other.faces.end();
+        };
+        if (std::ranges::any_of(found, shares)) alone.push_back(hollow);
+        std::ranges::copy(hollow.inside, std::back_inserter(hollow.faces));
+        std::ranges::sort(hollow.faces);
+        hollow.mouths = rims(model, hollow.faces).size();
+    }
     std::map<std::size_t, Candidate> by_root;
     for (std::size_t h = 0; h < found.size(); ++h) {
         if (std::ranges::count(first, first[h]) < 2) continue;
@@ -53,7 +66,8 @@ std::vector<Candidate> candidates(const Model& model, const RunContext& context)
         joined.mouths = rims(model, joined.faces).size();
         result.push_back(std::move(joined));
     }
-    for (const Hollow& hollow : found) result.push_back({hollow.faces, hollow.mouths, hollow.volume});
+    for (const std::vector<Hollow>* list : {&std::as_const(found), &std::as_const(alone)})
+        for (const Hollow& hollow : *list) result.push_back({hollow.faces, hollow.mouths, hollow.volume});
     std::ranges::stable_sort(result, is_listed_before, &Candidate::faces);
     const auto twice = std::ranges::unique(result, {}, &Candidate::faces);
     result.erase(twice.begin(), twice.end());

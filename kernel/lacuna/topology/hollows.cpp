@@ -254,8 +254,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
         const double volume = -volume_of_cones(model, faces, centroid_of(model, faces));
         if ((flat && faces.size() < 3) || !(volume > 0)) return false;
         const std::size_t mouths = rims(model, faces).size();
-        for (FaceId& face : faces) face = outer[face.index()];
-        found.push_back({std::move(faces), mouths, volume});
+        found.push_back({std::move(faces), mouths, {}, volume});
         return true;
     };
     for (const auto& [root, faces] : groups.faces) {
@@ -270,6 +269,11 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
             take(wider);
         }
     }
+    for (Hollow& hollow : found)
+        if (hollow.mouths > 1) hollow.inside = enclosed_by(model, hollow.faces, found);
+    for (Hollow& hollow : found)
+        for (std::vector<FaceId>* faces : {&hollow.faces, &hollow.inside})
+            for (FaceId& face : *faces) face = outer[face.index()];
     std::ranges::stable_sort(found, is_listed_before, &Hollow::faces);
     return found;
 }

@@ -22,9 +22,11 @@ void orient_skin(Model& model, const RunContext& context = {});
 
 /// Faces of a solid around a hollow, see `hollows()`.
 struct Hollow {
-    std::vector<FaceId> faces; ///< ascending
-    std::size_t mouths = 0;    ///< number of rims: 0 a void inside the solid, 1 a pocket, 2 or more a bore
-    double volume = 0;         ///< with each rim closed by a cone to the centre of the faces [model length³]
+    std::vector<FaceId> faces;  ///< ascending
+    std::size_t mouths = 0;     ///< number of rims: 0 a void inside the solid, 1 a pocket, 2 or more a bore
+    std::vector<FaceId> inside; ///< faces of bodies that stand in it and do not reach its mouths, such as the
+                                ///< top of a post
+    double volume = 0; ///< with each rim closed by a cone to the centre of the faces [model length³]
 };
 
 /// The order in which sets of faces are listed: by their first faces, then the largest first.
