@@ -1,0 +1,122 @@
+-- SPDX-License-Identifier: MIT
+-- Voids in blocks of a deck, and in bodies of facets, that were turned and written with few digits: the
+-- default tolerance follows the digits, and what is flat in the original is flat.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+local params = lacuna.params { lacuna = "", scratch = "" }
+
+local n, size = 6, 5 -- cells each way, and the side of a cell
+
+local function turned(x, y, z)
+  local function turn(a, b, angle)
+    return math.cos(angle) * a - math.sin(angle) * b, math.sin(angle) * a + math.cos(angle) * b
+  end
+  x, y, z = x - n * size / 2, y - n * size / 2, z - n * size / 2
+  x, y = turn(x, y, 0.3)
+  y, z = turn(y, z, 0.17)
+  return x, y, z
+end
+local function flat(x, y, z) return x, y, z end
+-- Bends the cells by 0.02 % of their sides at most.
+local function bent(x, y, z)
+  local length = n * size
+  local b = math.sin(math.pi * x / length) * math.sin(math.pi * y / length) * math.sin(math.pi * z / length)
+  return x + 1e-5 * b, y - 1.3e-5 * b, z + 0.8e-5 * b
+end
+
+-- A deck of a block of cells without some of them, and how many these are.
+local function deck(path, is_void, place, digits)
+  local function node(i, j, k) return 1 + i + (n + 1) * (j + (n + 1) * k) end
+  local cells, used, missing = {}, {}, 0
+  for i = 0, n - 1 do
+    for j = 0, n - 1 do
+      for k = 0, n - 1 do
+        if is_void(i, j, k) then
+          missing = missing + 1
+        else
+          local c = { node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
+            node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1) }
+          cells[#cells + 1] = #cells + 1 .. ", " .. table.concat(c, ", ")
+          for _, p in ipairs(c) do used[p] = true end
+        end
+      end
+    end
+  end
+  local nodes, number = {}, "%." .. digits .. "g"
+  local line = "%d, " .. number .. ", " .. number .. ", " .. number
+  for k = 0, n do
+    for j = 0, n do
+      for i = 0, n do
+        local p = node(i, j, k)
+        if used[p] then nodes[#nodes + 1] = line:format(p, place(i * size, j * size, k * size)) end
+      end
+    end
+  end
+  check.write(path, "*NODE\n" .. table.concat(nodes, "\n") .. "\n*ELEMENT, TYPE=C3D8, ELSET=BLOCK\n" ..
+    table.concat(cells, "\n") .. "\n")
+  return missing
+end
+
+local function boxes(...)
+  local all = { ... }
+  return function(i, j, k)
+    for _, b in ipairs(all) do
+      if b[1] <= i and i < b[2] and b[3] <= j and j < b[4] and b[5] <= k and k < b[6] then return true end
+    end
+    return false
+  end
+end
+
+local voids = {
+  steps = boxes({ 1, 3, 1, 5, 4, 6 }, { 3, 5, 1, 5, 3, 6 }),
+  low_pillar = function(i, j, k)
+    local is_pillar = i >= 2 and i < 4 and j >= 2 and j < 4 and k < 4
+    return k >= 2 and i > 0 and i < 5 and j > 0 and j < 5 and not is_pillar
+  end,
+  undercut = boxes({ 2, 4, 2, 4, 3, 6 }, { 1, 5, 1, 5, 1, 3 }),
+  slot = boxes({ 0, 6, 2, 4, 4, 6 }, { 0, 6, 1, 5, 2, 4 }),
+  corner = boxes({ 1, 6, 1, 3, 1, 3 }, { 1, 3, 1, 6, 1, 3 }, { 1, 3, 1, 3, 1, 6 }),
+  crossing = boxes({ 0, 6, 2, 4, 1, 3 }, { 2, 4, 0, 6, 3, 5 }),
+}
+local names = {}
+for name in pairs(voids) do names[#names + 1] = name end
+table.sort(names)
+
+-- Each void is filled with the cells that it lost, node for node, or the deck would refuse the mesh.
+for _, name in ipairs(names) do
+  for _, written in ipairs { { flat, 9 }, { bent, 12 }, { turned, 9 }, { turned, 6 }, { turned, 5 } } do
+    local place, digits = table.unpack(written)
+    local path = params.scratch .. "/" .. name .. ".inp"
+    local missing = deck(path, voids[name], place, digits)
+    local model = lacuna.load(path)
+    local mesh = model:open_volume { faces = model:cavities()[1].faces }:sweep {}
+    local at = name .. " with " .. digits .. " digits"
+    check.equal(mesh.hexes, missing, at)
+    check.near(mesh:quality().volume, missing * size ^ 3, 1e-4 * missing * size ^ 3)
+    mesh:write(params.scratch .. "/joined.inp", { with = model })
+    -- The tolerance: no more than two units of the last digit, far below the sides of the mesh.
+    local unit = 10.0 ^ (2 - digits)
+    check.that(model.tolerance <= math.max(2.01 * unit, 1.001e-6 * model.diagonal), at)
+    check.that(digits > 6 or model.tolerance > 1.99 * unit, at)
+  end
+end
+
+-- Numbers that are short because they are exact give no larger tolerance, nor do a few long ones among them.
+do
+  local path = params.scratch .. "/exact.inp"
+  for _, scale in ipairs { 1, 0.001, 123 } do
+    deck(path, voids.steps, function(x, y, z) return scale * x, scale * y, scale * z end, 9)
+    local model = lacuna.load(path)
+    check.near(model.tolerance, 1e-6 * model.diagonal, 1e-9 * model.diagonal)
+  end
+end
+
+-- Numbers with a unit as large as the cells merge no nodes: the tolerance is at most a hundredth of a side.
+do
+  local path = params.scratch .. "/coarse.inp"
+  deck(path, voids.steps, function(x, y, z) return 2e5 / 3 + x, y / 7, z end, 5)
+  local model = lacuna.load(path)
+  check.that(model.tolerance <= 0.01 * size)
+end
+
+check.done()
