@@ -10,7 +10,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <utility>
 
 namespace lacuna::closure {
 
@@ -41,13 +40,14 @@ std::vector<Candidate> candidates(const Model& model, const RunContext& context)
 {
     std::vector<Hollow> found = hollows(model, context);
     const std::vector<std::size_t> first = joined_hollows(model, found);
-    std::vector<Hollow> alone; // without what may stand in them, if other hollows are part of that
+    std::vector<Candidate> result;
     for (Hollow& hollow : found) {
         if (hollow.inside.empty()) continue;
         const auto shares = [&](const Hollow& other) {
             return std::ranges::find_first_of(other.faces, hollow.inside) != other.faces.end();
         };
-        if (std::ranges::any_of(found, shares)) alone.push_back(hollow);
+        if (std::ranges::any_of(found, shares)) // it may be no body, but the hollow that this one leads to
+            result.push_back({hollow.faces, hollow.mouths, hollow.volume});
         std::ranges::copy(hollow.inside, std::back_inserter(hollow.faces));
         std::ranges::sort(hollow.faces);
         hollow.mouths = rims(model, hollow.faces).size();
@@ -59,15 +59,13 @@ std::vector<Candidate> candidates(const Model& model, const RunContext& context)
         std::ranges::copy(found[h].faces, std::back_inserter(joined.faces));
         joined.volume += found[h].volume;
     }
-    std::vector<Candidate> result;
     for (auto& [root, joined] : by_root) {
         std::ranges::sort(joined.faces);
         joined.faces.erase(std::unique(joined.faces.begin(), joined.faces.end()), joined.faces.end());
         joined.mouths = rims(model, joined.faces).size();
         result.push_back(std::move(joined));
     }
-    for (const std::vector<Hollow>* list : {&std::as_const(found), &std::as_const(alone)})
-        for (const Hollow& hollow : *list) result.push_back({hollow.faces, hollow.mouths, hollow.volume});
+    for (const Hollow& hollow : found) result.push_back({hollow.faces, hollow.mouths, hollow.volume});
     std::ranges::stable_sort(result, is_listed_before, &Candidate::faces);
     const auto twice = std::ranges::unique(result, {}, &Candidate::faces);
     result.erase(twice.begin(), twice.end());

@@ -12,14 +12,16 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
-#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <unordered_set>
 
 namespace lacuna::closure {
 
@@ -53,7 +55,7 @@ public:
         across_.normal = -area_vector_of(volume_.model, volume_.faces(stepped_)).normalized();
         across_.u = across_.normal.unitOrthogonal();
         across_.v = across_.normal.cross(across_.u);
-        follow_mesh();
+        if (!follow_mesh()) lines_.clear();
         for (const Hanging& hanging : steps_.closed) hang(hanging);
         for (const FaceId face : volume_.faces(other_))
             lines_.empty() ? split(face) : split_along_lines(face);
@@ -80,7 +82,7 @@ private:
         Vec3 place;
         FaceId face;
         Vec2 uv = Vec2::Zero();
-        Index node = -1; ///< the corner of the facet that is nearer than `kFollowsFace` of its shortest side
+        Index node = -1; ///< the corner of the facet that is nearer than `kFollowsFace` of its sides
     };
     /// The place where the line from a point along the sweep first meets the opposite end, or the face `only`
     /// of that end.
@@ -100,90 +102,49 @@ private:
                            volume_.model.at(volume_.model[face].triangles[t][k]);
             if (!volume_.model[face].uv.empty())
                 found.uv += hit.barycentric[static_cast<int>(k)] * volume_.model[face].uv[t][k];
+            if (hit.barycentric[static_cast<int>(k)] > 1 - kFollowsFace)
+                found.node = volume_.model[face].triangles[t][k];
         }
-        const Triangle& corners = volume_.model[face].triangles[t];
-        double side = kInfinity;
-        for (std::size_t k = 0; k < 3; ++k)
-            side = std::min(side,
-                            (volume_.model.at(corners[k]) - volume_.model.at(corners[(k + 1) % 3])).norm());
-        for (const Index corner : corners)
-            if ((volume_.model.at(corner) - found.place).norm() < kFollowsFace * side) found.node = corner;
         return found;
     }
 
     /// If the images of all rims run along sides of the given mesh of the opposite end, away from its border,
     /// take these sides (`lines_`) and their nodes (`node_of_`) instead: the mesh can then be kept.
-    void follow_mesh()
+    bool follow_mesh()
     {
         const Model& model = volume_.model;
         std::set<std::uint64_t> sides;
         std::set<Index> taken; // points on the border, and images
         for (const FaceId face : volume_.faces(other_)) {
-            if (!model[face].keeps_nodes || !has_quads_all_over(model[face])) return;
+            if (!model[face].keeps_nodes || !has_quads_all_over(model[face])) return false;
             for (const Quad& quad : model[face].given_quads)
                 for (std::size_t k = 0; k < 4; ++k) sides.insert(edge_key(quad[k], quad[(k + 1) % 4]));
             for (const Loop& loop : border_loops(model, face))
                 for (const Index p : loop_points(model, loop.uses)) taken.insert(p);
         }
-        std::map<Index, Index> node_of;
-        std::set<std::uint64_t> lines;
         for (const Hanging& hanging : steps_.closed) {
             const std::vector<Index> rim = loop_points(model, hanging.rim.uses);
             for (const Index p : rim) {
                 const std::optional<Hit> hit = above(model.at(p));
-                if (!hit || !taken.insert(hit->node).second) return;
-                node_of.emplace(p, hit->node);
+                if (!hit || !taken.insert(hit->node).second) return false;
+                node_of_.emplace(p, hit->node);
             }
             for (std::size_t i = 0; i < rim.size(); ++i) {
-                const std::uint64_t line = edge_key(node_of[rim[i]], node_of[rim[(i + 1) % rim.size()]]);
-                if (!sides.contains(line)) return;
-                lines.insert(line);
+                const std::uint64_t line = edge_key(node_of_[rim[i]], node_of_[rim[(i + 1) % rim.size()]]);
+                if (!sides.contains(line)) return false;
+                lines_.insert(line);
             }
         }
-        node_of_ = std::move(node_of);
-        lines_ = std::move(lines);
+        return true;
     }
 
     /// Split a face of the opposite end along `lines_`. Its parts keep their quads.
     void split_along_lines(FaceId id)
     {
-        const Face before = builder_[id];
-        geometry::UnionFind parts(before.triangles.size());
-        std::map<std::uint64_t, std::size_t> facet_at;
-        for (std::size_t t = 0; t < before.triangles.size(); ++t) {
-            const Triangle& corners = before.triangles[t];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint64_t side = edge_key(corners[k], corners[(k + 1) % 3]);
-                if (lines_.contains(side)) continue;
-                const auto [known, fresh] = facet_at.emplace(side, t);
-                if (!fresh) parts.unite_least(known->second, t);
-            }
-        }
-        Face empty = before;
-        empty.triangles.clear();
-        empty.uv.clear();
-        empty.given_quads.clear();
-        std::map<std::size_t, Face> faces; // by the first facet
-        const auto part = [&](std::size_t t) -> Face& {
-            return faces.emplace(parts.find(t), empty).first->second;
-        };
-        for (std::size_t t = 0; t < before.triangles.size(); ++t) {
-            part(t).triangles.push_back(before.triangles[t]);
-            if (!before.uv.empty()) part(t).uv.push_back(before.uv[t]);
-        }
-        for (const Quad& quad : before.given_quads) {
-            const auto diagonal = facet_at.find(edge_key(quad[0], quad[2]));
-            part((diagonal != facet_at.end() ? diagonal : facet_at.find(edge_key(quad[1], quad[3])))->second)
-                .given_quads.push_back(quad);
-        }
-        for (auto& [facet, face] : faces) {
-            if (facet == 0) {
-                builder_[id] = std::move(face);
-            } else {
-                builder_.faces.push_back(std::move(face));
-                parted_.volume.role.push_back(other_);
-            }
-        }
+        std::vector<Face> parts = parts_along(volume_.model[id], lines_, volume_.model.points.size());
+        builder_[id] = std::move(parts.front());
+        std::move(parts.begin() + 1, parts.end(), std::back_inserter(builder_.faces));
+        parted_.volume.role.resize(parted_.volume.role.size() + parts.size() - 1, other_);
     }
 
     /// Extrude void faces from a rim to the opposite end.
@@ -195,7 +156,7 @@ private:
         image.part = hanging.part;
         std::map<Index, Index> above_of; // by point of the rim: its image on the opposite end
         const auto lift = [&](Index p) {
-            if (!node_of_.empty()) return node_of_.at(p);
+            if (!lines_.empty()) return node_of_.at(p);
             const auto known = above_of.find(p);
             if (known != above_of.end()) return known->second;
             const Vec3 from = builder_.at(p);
@@ -381,7 +342,7 @@ private:
     geometry::Plane across_; ///< plane across the sweep; its normal is the direction to the other end
     std::vector<Imprinted> images_;
     std::map<Index, Index> node_of_; ///< by point of a rim: the node of the opposite mesh that is its image
-    std::set<std::uint64_t> lines_;  ///< sides of the opposite mesh that are images of the rims
+    std::unordered_set<std::uint64_t> lines_; ///< sides of the opposite mesh that are images of the rims
     /// Surface parameters of points projected onto the opposite end.
     std::map<Index, Vec2> uv_;
     std::optional<geometry::FacetTree> tree_;           ///< facets of the original opposite end

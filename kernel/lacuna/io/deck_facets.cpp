@@ -13,7 +13,6 @@
 #include <lacuna/healing/shared/weld.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_view.h>
-#include <lacuna/io/detail/rounding.h>
 #include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
@@ -85,8 +84,9 @@ constexpr Index kSingles = -2; ///< region of the label that shells share if eac
 class Facets {
 public:
     Facets(const Deck& deck, double tolerance)
-        : deck_(deck), tolerance_(tolerance), rounding_(rounding_of(deck)), shells_(deck, 2), solids_(deck, 3)
+        : deck_(deck), tolerance_(tolerance), shells_(deck, 2), solids_(deck, 3)
     {
+        file_.soup.rounding = rounding_of(deck);
     }
 
     FacetFile gather()
@@ -100,7 +100,6 @@ public:
         emit();
         name_labels();
         file_.notes = deck_.notes;
-        file_.soup.rounding = rounding_;
         if (shared_by_many_ > 0)
             file_.notes.push_back(formatted(
                 "{}: {} sides are shared by more than two solids, which overlap or are listed twice",
@@ -198,9 +197,9 @@ private:
     {
         Eigen::AlignedBox3d box;
         for (const Vec3& p : deck_.points) box.extend(p);
-        return healing::weld(deck_.points, tolerance_ > 0
-                                               ? tolerance_
-                                               : std::max(kFileAccuracy * box.diagonal().norm(), rounding_));
+        return healing::weld(deck_.points, tolerance_ > 0 ? tolerance_
+                                                          : std::max(kFileAccuracy * box.diagonal().norm(),
+                                                                     file_.soup.rounding));
     }
 
     /// Process the sides and shells with the same corners, solids first.
@@ -387,7 +386,7 @@ private:
     }
 
     const Deck& deck_;
-    double tolerance_, rounding_;
+    double tolerance_;
     Elements shells_, solids_;
     SetLists lists_;
     std::vector<int> sets_of_shell_;                                    ///< list of sets of each shell

@@ -1,65 +1,46 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/rounding.h>
+#include <lacuna/io/shared/deck_facets.h>
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <string_view>
-#include <vector>
 
 namespace lacuna::io {
 namespace {
 
-/// Numbers with fewer significant digits are taken as exact. Fields of eight columns, the narrowest of all
-/// formats, hold five digits of a number with sign, point and leading zero.
-constexpr int kFewestDigits = 5;
+/// Significant digits of numbers that count as rounded. Fields of eight columns, the narrowest of all
+/// formats, hold five digits with sign, point and leading zero; nine tell all numbers of single precision
+/// apart.
+constexpr int kFewestDigits = 5, kMostDigits = 9;
 
-/// Significant digits that tell all numbers of single precision apart.
-constexpr int kDigitsOfSingle = std::numeric_limits<float>::max_digits10;
-
-/// The fewest significant digits that identify a number among those of its type.
-struct Digits {
-    int count = 0;
-    int exponent = 0; ///< of the first digit
-};
-
-template <class Real>
-Digits digits_of(Real x)
-{
-    std::array<char, 32> text;
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), std::abs(x), std::chars_format::scientific).ptr;
-    const std::string_view all(text.data(), static_cast<std::size_t>(end - text.data()));
-    const std::size_t e = all.find('e');
-    Digits digits{static_cast<int>(e == 1 ? 1 : e - 1)};
-    std::from_chars(all.data() + e + (all[e + 1] == '+' ? 2 : 1), end, digits.exponent);
-    return digits;
-}
-
-/// The unit of the last digit of a deck's coordinates: the largest of those with the most digits.
+/// The unit of the last digit of a deck's coordinates: the largest of those with the most digits; of single
+/// precision that of the largest coordinate. 0: they are exact or of double precision.
 double last_unit(const Deck& deck)
 {
-    Digits most;
-    double largest = 0;
-    bool single = true; // all numbers so far are of single precision
-    for (const Vec3& p : deck.points) {
+    int most = kFewestDigits;
+    double unit = 0, largest = 0;
+    bool single = true;
+    for (const Vec3& p : deck.points)
         for (const double x : p) {
             largest = std::max(largest, std::abs(x));
-            const bool own = static_cast<double>(static_cast<float>(x)) == x;
-            single = single && own;
-            const Digits digits = own ? digits_of(static_cast<float>(x)) : digits_of(x);
-            if (digits.count > kDigitsOfSingle) return 0;
-            if (digits.count > most.count || (digits.count == most.count && digits.exponent > most.exponent))
-                most = digits;
+            single = single && static_cast<double>(static_cast<float>(x)) == x;
+            if (single || x == 0) continue;
+            const double first = std::floor(std::log10(std::abs(x))); // exponent of the first digit
+            const auto is_whole = [&](int digits) {
+                const double scaled = x * std::pow(10, digits - 1 - first);
+                return std::abs(scaled - std::round(scaled)) < kFileAccuracy;
+            };
+            int digits = most - 1;
+            while (digits <= kMostDigits && !is_whole(digits)) ++digits;
+            if (digits > kMostDigits) return 0;
+            if (digits < most) continue;
+            unit = std::max(digits > most ? 0 : unit, std::pow(10, first - digits + 1));
+            most = digits;
         }
-    }
-    if (single) return largest * std::numeric_limits<float>::epsilon();
-    return most.count < kFewestDigits ? 0 : std::pow(10, most.exponent - most.count + 1);
+    return single ? largest * std::numeric_limits<float>::epsilon() : unit;
 }
 
 } // namespace
@@ -72,13 +53,11 @@ double rounding_of(const Deck& deck)
     double shortest = kInfinity;
     for (const DeckBlock& block : deck.blocks) {
         for (std::size_t e = 0; e < block.count(); ++e) {
-            std::vector<Vec3> corners;
-            for (const Index node : block.element(e))
-                if (node >= 0) corners.push_back(deck.points[index(node)]);
-            for (std::size_t a = 0; a < corners.size(); ++a) {
-                for (std::size_t b = 0; b < a; ++b)
-                    if (corners[a] != corners[b])
-                        shortest = std::min(shortest, (corners[a] - corners[b]).norm());
+            for (const Index a : block.element(e)) {
+                for (const Index b : block.element(e)) {
+                    if (a < 0 || b < 0 || deck.points[index(a)] == deck.points[index(b)]) continue;
+                    shortest = std::min(shortest, (deck.points[index(a)] - deck.points[index(b)]).norm());
+                }
             }
         }
     }

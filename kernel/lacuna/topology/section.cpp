@@ -493,61 +493,30 @@ private:
     {
         const std::size_t before = model_.faces.size();
         parent = all_faces(model_);
-        DirectedSides sides(model_.points.size());
         on_walk_.assign(model_.points.size(), false);
         for (const SectionWalk& walk : walks_)
             for (const SectionPlace& place : walk.places) on_walk_[index(point(place))] = true;
         for (std::size_t f = 0; f < before; ++f) {
-            const std::vector<std::size_t> part = parts_of(model_.faces[f], sides);
-            const std::size_t count = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
-            if (count < 2) continue;
-            const Face whole = model_.faces[f];
-            sides.read(whole.triangles);
-            for (std::size_t p = 0; p < count; ++p) {
-                Face face = whole;
-                face.triangles.clear();
-                face.uv.clear();
-                face.given_quads.clear();
-                for (std::size_t t = 0; t < part.size(); ++t) {
-                    if (part[t] != p) continue;
-                    face.triangles.push_back(whole.triangles[t]);
-                    if (!whole.uv.empty()) face.uv.push_back(whole.uv[t]);
-                }
-                for (const Quad& quad : whole.given_quads)
-                    if (part[index(sides.find(quad[0], quad[1])) / 3] == p) face.given_quads.push_back(quad);
-                if (p == 0) {
-                    model_.faces[f] = std::move(face);
-                } else {
-                    model_.faces.push_back(std::move(face));
-                    parent.emplace_back(f);
-                }
+            if (!is_met(model_.faces[f])) continue;
+            std::vector<Face> parts = parts_along(model_.faces[f], walked_, model_.points.size());
+            model_.faces[f] = std::move(parts.front());
+            for (std::size_t p = 1; p < parts.size(); ++p) {
+                model_.faces.push_back(std::move(parts[p]));
+                parent.emplace_back(f);
             }
         }
     }
 
-    /// Part number of each facet, with the walks as separators.
-    [[nodiscard]] std::vector<std::size_t> parts_of(const Face& face, DirectedSides& sides) const
+    /// Whether a walk runs along sides of a face's facets.
+    [[nodiscard]] bool is_met(const Face& face) const
     {
         // Test the corners before the sides: few corners are on walks, and a flag is cheaper than a look-up.
         const auto is_on = [&](Index p) { return on_walk_[index(p)]; };
-        const bool met = std::ranges::any_of(face.triangles, [&](const Triangle& t) {
+        return std::ranges::any_of(face.triangles, [&](const Triangle& t) {
             return std::ranges::count_if(t, is_on) > 1 &&
                    (walked_.contains(edge_key(t[0], t[1])) || walked_.contains(edge_key(t[1], t[2])) ||
                     walked_.contains(edge_key(t[2], t[0])));
         });
-        if (!met) return {};
-        geometry::UnionFind sets(face.triangles.size());
-        sides.read(face.triangles);
-        for (std::size_t side = 0; side < sides.size(); ++side) {
-            if (walked_.contains(edge_key(sides.from(side), sides.to(side))) || sides.across(side) < 0)
-                continue;
-            sets.unite_least(side / 3, index(sides.across(side)) / 3);
-        }
-        std::map<std::size_t, std::size_t> number;
-        std::vector<std::size_t> part;
-        for (std::size_t t = 0; t < face.triangles.size(); ++t)
-            part.push_back(number.try_emplace(sets.find(t), number.size()).first->second);
-        return part;
     }
 
     ModelBuilder& model_;
@@ -578,6 +547,33 @@ std::vector<SectionWalk> section_walks(const Model& model, const std::vector<Fac
                                        const geometry::Plane& plane, double tolerance)
 {
     return WalkFinder(model, faces, plane, tolerance).walks();
+}
+
+std::vector<Face> parts_along(const Face& whole, const std::unordered_set<std::uint64_t>& lines,
+                              std::size_t points)
+{
+    geometry::UnionFind sets(whole.triangles.size());
+    DirectedSides sides(points);
+    sides.read(whole.triangles);
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+        if (!lines.contains(edge_key(sides.from(side), sides.to(side))) && sides.across(side) >= 0)
+            sets.unite_least(side / 3, index(sides.across(side)) / 3);
+    }
+    Face empty = whole;
+    empty.triangles.clear();
+    empty.uv.clear();
+    empty.given_quads.clear();
+    std::map<std::size_t, std::size_t> number;
+    std::vector<Face> parts;
+    for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+        const std::size_t part = number.try_emplace(sets.find(t), number.size()).first->second;
+        if (part == parts.size()) parts.push_back(empty);
+        parts[part].triangles.push_back(whole.triangles[t]);
+        if (!whole.uv.empty()) parts[part].uv.push_back(whole.uv[t]);
+    }
+    for (const Quad& quad : whole.given_quads)
+        parts[number.at(sets.find(index(sides.find(quad[0], quad[1])) / 3))].given_quads.push_back(quad);
+    return parts;
 }
 
 WalkImprint imprint_walks(ModelBuilder& model, std::span<const SectionWalk> walks,

@@ -6,7 +6,9 @@
 #include <lacuna/topology/model.h>
 
 #include <compare>
+#include <cstdint>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 namespace lacuna::topology {
@@ -37,6 +39,11 @@ struct SectionWalk {
 /// @note  O(facets).
 std::vector<SectionWalk> section_walks(const Model& model, const std::vector<FaceId>& faces,
                                        const geometry::Plane& plane, double tolerance);
+
+/// The parts into which a face falls along some sides of its facets (`edge_key()`), with their given quads.
+/// @param points  number of points of the model
+std::vector<Face> parts_along(const Face& whole, const std::unordered_set<std::uint64_t>& lines,
+                              std::size_t points);
 
 /// Result of `imprint_walks()`.
 struct WalkImprint {
