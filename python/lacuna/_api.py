@@ -1391,8 +1391,8 @@ def load(path, options=None, /, **keywords):
     facets (.stl .obj), meshes and decks (.msh .inp .bdf .nas .dat .unv .vtk .vtu .exo .e .mesh). In the place
     of a path: a mesh of meshio or PyVista.
 
-    tolerance: float; gaps narrower than this are closed [model length]; default 1e-6 × the diagonal of the
-        bounding box
+    tolerance: float; gaps narrower than this are closed [model length]; default 1e-6 × the diagonal, more
+        where coordinates are rounded
     feature_angle: float; facets are divided into faces along edges with at least this angle [degrees];
         default 40
     keep_mesh: bool; quads and nodes of the input are kept as a mesh; default True
