@@ -331,7 +331,8 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
                                    const RunContext& context)
 {
     const auto any = [](const Model&) { return true; };
-    if (!are_parts_of_bodies(model, faces)) return readings_of(model, faces, any, context);
+    const double share = share_of_bodies(model, faces);
+    if (!(share < 1.0 / 2)) return readings_of(model, faces, any, context);
     const MayEnclose outside = [&](const Model& sealed) { return !lies_in_material(model, sealed); };
     std::vector<Reading> readings = readings_of(model, faces, outside, context);
     if (!readings.empty()) return readings;
@@ -340,6 +341,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         return readings;
     }
     readings = readings_of(model, faces, any, context);
+    if (!(share < 1.0 / 4)) return readings; // a body that lacks faces
     for (Reading& reading : readings) {
         Closure* closure = reading.closure  ? &*reading.closure
                            : reading.sealed ? &reading.sealed->closure

@@ -326,10 +326,11 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
     return cavity;
 }
 
-bool are_parts_of_bodies(const Model& model, const std::vector<FaceId>& faces)
+double share_of_bodies(const Model& model, const std::vector<FaceId>& faces)
 {
-    std::vector<bool> named(model.faces.size(), false), fits(model.faces.size(), false);
+    std::vector<bool> named(model.faces.size(), false);
     for (const FaceId face : faces) named[face.index()] = true;
+    std::vector<double> share(model.faces.size(), 1);
     for (const std::vector<FaceId>& shell : closed_shells(model)) {
         double part = 0, all = 0; // area that is named, and of the skin [model length²]
         for (const FaceId face : shell) {
@@ -337,10 +338,12 @@ bool are_parts_of_bodies(const Model& model, const std::vector<FaceId>& faces)
             all += area;
             if (named[face.index()]) part += area;
         }
-        const bool fit = 4 * part < all && volume_integral(model, shell) > 0;
-        for (const FaceId face : shell) fits[face.index()] = fit;
+        if (volume_integral(model, shell) > 0)
+            for (const FaceId face : shell) share[face.index()] = part / all;
     }
-    return std::ranges::all_of(faces, [&](FaceId face) -> bool { return fits[face.index()]; });
+    double largest = 0;
+    for (const FaceId face : faces) largest = std::max(largest, share[face.index()]);
+    return largest;
 }
 
 bool lies_in_material(const Model& model, const Model& sealed)

@@ -57,13 +57,12 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
 std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context = {});
 
-/// Whether each of some faces belongs to a closed body, whose faces point outward, and the faces are less
-/// than a quarter of its skin. They then show on which side their void lies: beside the body. With more of
-/// the skin, the void may be the body without the other faces.
-bool are_parts_of_bodies(const Model& model, const std::vector<FaceId>& faces);
+/// The share of the skins of closed bodies, whose faces point outward, that some faces are, by area; the
+/// largest of several bodies. 1 if a face belongs to no such body.
+double share_of_bodies(const Model& model, const std::vector<FaceId>& faces);
 
 /// Whether a sealed volume lies in the material of the bodies to which its given faces belong, by area.
-/// @param model   the bodies, see `are_parts_of_bodies()`
+/// @param model   the bodies, closed and oriented outward
 /// @param sealed  faces of the model with their tags, and void faces; oriented outward
 bool lies_in_material(const Model& model, const Model& sealed);
 
