@@ -294,34 +294,34 @@ BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]]):format(
   end
 end
 
+--- A body of Open CASCADE is meshed by hexahedra of its volume, none with a scaled Jacobian below `least`.
+local function is_swept(geo, size, least, word)
+  local file = params.scratch .. "/body.geo"
+  check.write(file, 'SetFactory("OpenCASCADE");\n' .. geo .. "\n")
+  local mesh = lacuna.load(file):open_volume():sweep { size = size }
+  local quality = mesh:quality()
+  check.that(quality.certified and mesh.tets == 0 and quality.min_scaled_jacobian > least,
+    ("%s: %.3f"):format(word, quality.min_scaled_jacobian))
+  check.near(quality.volume, mesh.fidelity.sealed_volume, 0.02 * quality.volume)
+end
+
 -- Reducing tees: the circle at the small end of the cone is no mouth, wherever the branch is.
 for _, member in ipairs { { 40, 25, -60, 20 }, { 40, 30, -40, 15 }, { 25, 40, 85, 20 },
   { 40, 25, 100, 12 } } do
   local left, right, at, radius = table.unpack(member)
-  local file = params.scratch .. "/reducer.geo"
-  check.write(file, ([[SetFactory("OpenCASCADE");
+  is_swept(([[
 Cylinder(1) = {-120, 0, 0, 120, 0, 0, %g}; Cone(2) = {0, 0, 0, 40, 0, 0, %g, %g};
 Cylinder(3) = {40, 0, 0, 100, 0, 0, %g}; Cylinder(4) = {%g, 0, 0, 0, 0, 90, %g};
 BooleanUnion(5) = { Volume{1}; Delete; }{ Volume{2:4}; Delete; };]]):format(
-    left, left, right, right, at, radius))
-  local mesh = lacuna.load(file):open_volume():sweep { size = 8 }
-  local quality = mesh:quality()
-  check.that(quality.certified and mesh.tets == 0 and quality.min_scaled_jacobian > 0.3,
-    ("reducing tee with a branch at %g: %.3f"):format(at, quality.min_scaled_jacobian))
-  check.near(quality.volume, mesh.fidelity.sealed_volume, 0.02 * quality.volume)
+    left, left, right, right, at, radius), 8, 0.3, "reducing tee with a branch at " .. at)
 end
 
 -- Blind branches with a round bottom.
 for _, radius in ipairs { 15, 24 } do
-  local file = params.scratch .. "/blind.geo"
-  check.write(file, ([[SetFactory("OpenCASCADE");
+  is_swept(([[
 Cylinder(1) = {-100, 0, 0, 200, 0, 0, 30}; Cylinder(2) = {0, 0, 0, 0, 0, 60, %g}; Sphere(3) = {0, 0, 60, %g};
-BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2:3}; Delete; };]]):format(radius, radius))
-  local mesh = lacuna.load(file):open_volume():sweep { size = 6 }
-  local quality = mesh:quality()
-  check.that(quality.certified and mesh.tets == 0 and quality.min_scaled_jacobian > 0.2,
-    ("blind branch of radius %g: %.3f"):format(radius, quality.min_scaled_jacobian))
-  check.near(quality.volume, mesh.fidelity.sealed_volume, 0.02 * quality.volume)
+BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2:3}; Delete; };]]):format(radius, radius), 6, 0.2,
+    "blind branch of radius " .. radius)
 end
 
 -- Chambers with ports to several sides whose outer ends are missing: boxes, vessels with a ledge, and balls.

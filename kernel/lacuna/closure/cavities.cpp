@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/cavities.h>
 
+#include <lacuna/closure/detail/hollow_readings.h>
 #include <lacuna/core/shared/attempt.h>
 #include <lacuna/topology/shared/hollows.h>
 
@@ -73,9 +74,9 @@ std::vector<Candidate> candidates(const Model& model, const RunContext& context)
 }
 
 std::optional<std::vector<Reading>> only_reading(const Model& model, const Candidate& candidate,
-                                                 const RunContext& context)
+                                                 const Bodies& bodies, const RunContext& context)
 {
-    auto readings = unless_refused([&] { return find_readings(model, candidate.faces, context); });
+    auto readings = unless_refused([&] { return find_readings(model, candidate.faces, bodies, context); });
     if (readings && readings->size() != 1) readings.reset();
     return readings;
 }
@@ -111,10 +112,11 @@ Cavity cavity_of(const Model& model, const Candidate& candidate, const Reading& 
 
 std::vector<Cavity> cavities(const Model& model, const RunContext& context)
 {
+    const Bodies bodies(model);
     std::vector<Cavity> result;
     for (const Candidate& candidate : candidates(model, context)) {
         check_cancelled(context);
-        if (const auto readings = only_reading(model, candidate, context)) {
+        if (const auto readings = only_reading(model, candidate, bodies, context)) {
             result.push_back(cavity_of(model, candidate, readings->front(), context));
         } else if (candidate.mouths == 0) {
             Model own = extract(model, candidate.faces);
@@ -132,6 +134,7 @@ std::vector<Cavity> largest_cavities(const Model& model, std::size_t most, const
 {
     std::vector<Candidate> order = candidates(model, context);
     std::ranges::stable_sort(order, std::greater(), &Candidate::volume);
+    const Bodies bodies(model);
     std::vector<Cavity> result;
     for (const Candidate& candidate : order) {
         check_cancelled(context);
@@ -140,7 +143,7 @@ std::vector<Cavity> largest_cavities(const Model& model, std::size_t most, const
                 return std::ranges::includes(larger.faces, candidate.faces);
             }))
             continue;
-        const auto readings = only_reading(model, candidate, context);
+        const auto readings = only_reading(model, candidate, bodies, context);
         if (!readings) continue;
         result.push_back(cavity_of(model, candidate, readings->front(), context));
     }

@@ -225,9 +225,8 @@ bool look_apart(const Model& model, const std::vector<Loop>& loops)
 {
     std::vector<Vec3> normals;
     for (const Loop& loop : loops) {
-        const std::vector<Vec3> places = loop_places(model, loop.uses);
         if (!is_flat(model, {loop.uses})) return false;
-        normals.push_back(geometry::newell_vector(places).stableNormalized());
+        normals.push_back(geometry::newell_vector(loop_places(model, loop.uses)).stableNormalized());
     }
     return std::ranges::any_of(normals, [&](const Vec3& a) {
         return std::ranges::any_of(normals, [&](const Vec3& b) { return std::abs(a.dot(b)) < kFacesEnd; });

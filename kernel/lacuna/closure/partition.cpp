@@ -323,49 +323,65 @@ bool make_ledges_walls(OpenVolume& volume, const Vec3& axis)
     return !ledges.empty();
 }
 
-/// Find the ends of pieces of branches and steps that lack one. An end that the cut of a branch made is a
-/// wall of an arm that has steps, because the arm already had ends. A branch may have a round bottom.
-void find_missing_ends(std::vector<StepPiece>& pieces, const RunContext& context)
-{
-    if (std::ranges::all_of(pieces, has_ends, &StepPiece::volume)) return;
-    pieces = read_ends(std::move(pieces), context).pieces;
-    for (StepPiece& piece : pieces) {
-        if (has_ends(piece.volume) || !free_edges(piece.volume).empty()) continue;
-        if (auto bowl = part_bowl(piece.volume, context)) piece.volume = std::move(bowl->volume);
-    }
-}
+/// Pieces that a volume is cut into at once.
+using Pieces = std::vector<StepPiece>;
 
 /// Cut a volume at its branches and at the steps of its ends along an axis (`set_ends_along()`), such as foam
-/// around a tilted product; if that fails, with ledges as walls, such as the underside of a bottle's lip. A
-/// volume with a round bottom is cut at its branches.
-/// @param change  whether pieces that cannot be swept are changed: other ends, and rounds divided
-/// @return  whether `take` accepted pieces that can be swept
-bool cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep, bool change, const TakePieces& take,
-                  const RunContext& context)
+/// around a tilted product; if that fails, with ledges as walls, such as the underside of a bottle's lip.
+/// @param take     called with pieces that can be swept, until it returns true
+/// @param refused  receives the other pieces
+/// @return  whether `take` accepted pieces
+bool cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep, const TakePieces& take,
+                  std::vector<Pieces>& refused, const RunContext& context)
 {
-    const auto suits = [&](StepPiece& piece) {
-        return has_ends(piece.volume) &&
-               (can_sweep(piece.volume) || (change && divide_rounds(piece.volume, can_sweep, context)));
-    };
-    const auto offer = [&](const OpenVolume& whole, std::size_t least) {
-        auto pieces = unless_refused([&] { return cut_into_pieces(whole, context); });
-        if (!pieces || pieces->size() < least) return false;
-        if (change) find_missing_ends(*pieces, context);
-        return std::ranges::all_of(*pieces, suits) && take(std::move(*pieces));
+    const auto suits = [&](const StepPiece& piece) {
+        return has_ends(piece.volume) && can_sweep(piece.volume);
     };
     OpenVolume away = volume;
     face_away(away, context);
+    const auto offer = [&](std::size_t least) {
+        auto pieces = unless_refused([&] { return cut_into_pieces(away, context); });
+        if (!pieces || pieces->size() < least) return false;
+        if (std::ranges::all_of(*pieces, suits)) return take(std::move(*pieces));
+        refused.push_back(std::move(*pieces));
+        return false;
+    };
     std::vector<Vec3> axes = axes_of(away, true);
     if (axes.size() > kMostTrials) axes.resize(kMostTrials);
     for (const Vec3& axis : axes) {
         check_cancelled(context);
         set_ends_along(away, axis);
-        if (offer(away, 2) || (make_ledges_walls(away, axis) && offer(away, 1))) return true;
+        if (offer(2) || (make_ledges_walls(away, axis) && offer(1))) return true;
     }
-    if (!change) return false;
+    return false;
+}
+
+/// The pieces of a volume with a round bottom, cut at its branches; empty if it has neither.
+Pieces cut_above_bottom(const OpenVolume& volume, const RunContext& context)
+{
+    OpenVolume away = volume;
+    face_away(away, context);
     std::ranges::fill(away.role, Role::wall);
     const auto bowl = part_bowl(away, context);
-    return bowl && offer(bowl->volume, 2);
+    auto pieces = bowl ? unless_refused([&] { return cut_into_pieces(bowl->volume, context); })
+                       : std::nullopt;
+    return pieces && pieces->size() > 1 ? std::move(*pieces) : Pieces();
+}
+
+/// Change pieces of branches and steps so that they can be swept. Pieces that lack an end get other ends: an
+/// end that the cut of a branch made is a wall of an arm that has steps, because the arm already had ends. A
+/// branch may have a round bottom. Rounds at the rims of ends are divided.
+/// @return  whether all pieces can be swept
+bool change_to_sweep(Pieces& pieces, const CanSweep& can_sweep, const RunContext& context)
+{
+    if (!std::ranges::all_of(pieces, has_ends, &StepPiece::volume))
+        pieces = read_ends(std::move(pieces), context).pieces;
+    return std::ranges::all_of(pieces, [&](StepPiece& piece) {
+        OpenVolume& volume = piece.volume;
+        if (!has_ends(volume) && free_edges(volume).empty())
+            if (auto bowl = part_bowl(volume, context)) volume = std::move(bowl->volume);
+        return has_ends(volume) && (can_sweep(volume) || divide_rounds(volume, can_sweep, context));
+    });
 }
 
 /// The pieces of a volume that was cut into parts: blocks of divided parts, and the other parts. If there are
@@ -452,7 +468,8 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
     };
     if (auto divided = with_rounds_divided(volume, can_sweep, context))
         if (take({{std::move(*divided)}})) return;
-    if (cut_in_steps(volume, can_sweep, false, take, context) ||
+    std::vector<Pieces> refused;
+    if (cut_in_steps(volume, can_sweep, take, refused, context) ||
         take_some(divided_through_axis(volume, can_sweep, context)) ||
         take_some(divided_at_middle(volume, kMostPieces, can_sweep, context)) ||
         take_some(divided_where_turning(volume, kMostPieces, can_sweep, context)) ||
@@ -466,7 +483,10 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
     if (!is_swept && take_new(pieces_of(std::move(first), can_sweep, context))) return;
     for (std::size_t c = 1; c < cuts.size(); ++c)
         if (take_new(pieces_of(parts_of_cut(c), can_sweep, context))) return;
-    cut_in_steps(volume, can_sweep, true, take, context);
+    if (auto pieces = cut_above_bottom(volume, context); !pieces.empty())
+        refused.push_back(std::move(pieces));
+    for (Pieces& pieces : refused)
+        if (change_to_sweep(pieces, can_sweep, context) && take(std::move(pieces))) return;
 }
 
 } // namespace lacuna::closure

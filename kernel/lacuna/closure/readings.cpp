@@ -330,10 +330,16 @@ OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
 std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
+    return find_readings(model, faces, Bodies(model), context);
+}
+
+std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>& faces, const Bodies& bodies,
+                                   const RunContext& context)
+{
     const auto any = [](const Model&) { return true; };
-    const double share = share_of_bodies(model, faces);
+    const double share = bodies.share_of(faces);
     if (!(share < 1.0 / 2)) return readings_of(model, faces, any, context);
-    const MayEnclose outside = [&](const Model& sealed) { return !lies_in_material(model, sealed); };
+    const MayEnclose outside = [&](const Model& sealed) { return !lies_in_material(model, faces, sealed); };
     std::vector<Reading> readings = readings_of(model, faces, outside, context);
     if (!readings.empty()) return readings;
     if (auto groove = read_groove(model, faces, outside, context)) {

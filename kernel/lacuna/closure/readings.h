@@ -75,9 +75,9 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// wall is closed only if no unambiguous void was found. Its ends are the planar parts of its free loop,
 /// which must be congruent.
 ///
-/// Faces that are less than half of the skin of closed bodies (`share_of_bodies()`) show on which side their
-/// void lies: beside the material. If no void is found there, a groove around an axis is read as a full turn;
-/// otherwise the voids in the material are returned, with a note if the faces are less than a quarter.
+/// Faces that are less than half of the skin of closed bodies, by area, show on which side their void lies:
+/// beside the material. If no void is found there, a groove around an axis is read as a full turn; otherwise
+/// the voids in the material are returned, with a note if the faces are less than a quarter.
 ///
 /// A void with an ambiguous bent face is dropped if another void has flat faces. If it is the only void, it
 /// is kept, and `Reading::guess` describes the ambiguity.

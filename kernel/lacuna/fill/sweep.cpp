@@ -185,11 +185,13 @@ FilledParts sweep_pieces_true(const Volume& sealed, const std::vector<closure::S
                               sweep::SweepOptions options, bool sized, const RunContext& context)
 {
     FilledParts mesh = sweep_pieces(sealed, pieces, options, context);
-    if (sized || !(lost_volume(mesh) > kVolumeNoted)) return mesh;
-    const double finer = std::sqrt(kSameVolume / 2 / lost_volume(mesh));
+    double off = lost_volume(mesh);
+    if (sized || !(off > kVolumeNoted)) return mesh;
+    const double finer = std::sqrt(kSameVolume / 2 / off);
     options.size = [size = options.size, finer](const Vec3& p) { return finer * size(p); };
     mesh = sweep_pieces(sealed, pieces, options, context);
-    if (const double off = lost_volume(mesh); off > kVolumeNoted)
+    off = lost_volume(mesh);
+    if (off > kVolumeNoted)
         throw NotSweepable(
             Message("sweep.volume",
                     "the meshes of the pieces together differ by {:.2g} % in volume from the sealed skin",

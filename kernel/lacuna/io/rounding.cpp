@@ -50,18 +50,19 @@ double rounding_of(const Deck& deck)
     // A rounded point is off by at most √3/2 units, and so are those that it is compared with.
     const double rounding = 2 * last_unit(deck);
     if (!(rounding > 0)) return 0;
-    double shortest = kInfinity;
+    double shortest = kInfinity; // squared
     for (const DeckBlock& block : deck.blocks) {
         for (std::size_t e = 0; e < block.count(); ++e) {
             for (const Index a : block.element(e)) {
                 for (const Index b : block.element(e)) {
-                    if (a < 0 || b < 0 || deck.points[index(a)] == deck.points[index(b)]) continue;
-                    shortest = std::min(shortest, (deck.points[index(a)] - deck.points[index(b)]).norm());
+                    if (a < 0 || b <= a) continue;
+                    const double squared = (deck.points[index(a)] - deck.points[index(b)]).squaredNorm();
+                    if (squared > 0) shortest = std::min(shortest, squared);
                 }
             }
         }
     }
-    return std::min(rounding, kAlikeSizes * shortest);
+    return std::min(rounding, kAlikeSizes * std::sqrt(shortest));
 }
 
 } // namespace lacuna::io

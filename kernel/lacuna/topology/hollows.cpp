@@ -78,60 +78,94 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
     return most;
 }
 
-/// Faces of bodies that stand in a cavity. If the faces of the cavity are removed, the skin falls into parts,
-/// bounded by the cavity's rims.
+/// Finds the faces of bodies that stand in cavities. If the faces of a cavity are removed, the skin falls
+/// into parts, bounded by the cavity's rims.
 /// - The part with the largest area is the outside. The rims between the outside and the cavity are the
 ///   cavity's mouths.
 /// - Any other part stands in the cavity if all of it lies below the mouths.
 /// - Other hollows with two or more rims, such as through bores, are removed too, so that they do not connect
 ///   parts. Such a hollow stands in the cavity if none of its rims is on the outside.
-/// @pre oriented
-std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity,
-                                const std::vector<Hollow>& hollows)
-{
-    std::vector<FaceId> rest, result;
-    std::set<FaceId> apart(cavity.begin(), cavity.end());
-    for (const Hollow& hollow : hollows)
-        if (hollow.mouths > 1) apart.insert(hollow.faces.begin(), hollow.faces.end());
-    std::ranges::copy_if(all_faces(model), std::back_inserter(rest),
-                         [&](FaceId face) { return !apart.contains(face); });
-    const std::vector<Rim> mouths = rims(model, cavity);
-    std::set<EdgeId> brims;
-    for (const Rim& rim : mouths)
-        for (const EdgeUse& use : rim.uses) brims.insert(use.edge);
-    std::vector<std::vector<FaceId>> parts;
-    for (std::vector<FaceId>& part : connected_parts(model, rest)) {
-        const std::vector<Rim> own = rims(model, part);
-        if (std::ranges::any_of(own, [&](const Rim& r) { return brims.contains(r.uses.front().edge); }))
-            parts.push_back(std::move(part));
+class Standing {
+public:
+    /// @param model     oriented
+    /// @param hollows   in `model`
+    /// @param apart     faces of cavities that are no hollows with two or more rims
+    Standing(const Model& model, const std::vector<Hollow>& hollows, const std::vector<FaceId>& apart = {})
+        : model_(model), hollows_(hollows), part_at_(model.edges.size(), kNoIndex)
+    {
+        std::vector<bool> left(model.faces.size(), true);
+        for (const FaceId face : apart) left[face.index()] = false;
+        for (const Hollow& hollow : hollows)
+            for (const FaceId face : hollow.faces)
+                if (hollow.mouths > 1) left[face.index()] = false;
+        std::vector<FaceId> rest = all_faces(model);
+        std::erase_if(rest, [&](FaceId face) { return !left[face.index()]; });
+        parts_ = connected_parts(model, rest);
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            double& area = area_.emplace_back(0);
+            for (const FaceId face : parts_[p]) {
+                area += face_area(model, face);
+                for (const EdgeUse& use : uses_of(model[face])) part_at_[use.edge.index()] = p;
+            }
+        }
     }
-    if (parts.empty()) return {};
-    const auto outside = std::ranges::max_element(parts, {}, [&](const std::vector<FaceId>& part) {
-        double area = 0;
-        for (const FaceId face : part) area += face_area(model, face);
-        return area;
-    });
-    const std::set<EdgeId> of_outside = rim_edges(model, *outside);
-    parts.erase(outside);
-    for (const Hollow& hollow : hollows) {
-        const std::set<EdgeId> own = rim_edges(model, hollow.faces);
-        const bool outward = std::ranges::any_of(own, [&](EdgeId edge) { return of_outside.contains(edge); });
-        if (hollow.mouths > 1 && !outward &&
-            std::ranges::find_first_of(hollow.faces, cavity) == hollow.faces.end())
-            parts.push_back(hollow.faces);
+
+    std::vector<FaceId> in(const std::vector<FaceId>& cavity)
+    {
+        const std::vector<Rim> mouths = rims(model_, cavity);
+        const auto part_at = [&](const Rim& rim) { return part_at_[rim.uses.front().edge.index()]; };
+        std::set<std::size_t> beside;
+        for (const Rim& rim : mouths)
+            for (const EdgeUse& use : rim.uses) beside.insert(part_at_[use.edge.index()]);
+        beside.erase(kNoIndex);
+        if (beside.empty()) return {};
+        const std::size_t outside = *std::ranges::max_element(beside, {},
+                                                              [&](std::size_t part) { return area_[part]; });
+        beside.erase(outside);
+        std::vector<std::vector<FaceId>> standing;
+        for (const std::size_t part : beside) standing.push_back(parts_[part]);
+        for (const std::size_t hollow : hollows_off(outside))
+            if (const auto& faces = hollows_[hollow].faces;
+                std::ranges::find_first_of(faces, cavity) == faces.end())
+                standing.push_back(faces);
+        for (const Rim& rim : mouths) {
+            if (standing.empty()) break;
+            if (part_at(rim) != outside) continue;
+            const std::vector<Vec3> mouth = loop_places(model_, rim.uses);
+            const Vec3 out = geometry::newell_vector(mouth).stableNormalized();
+            double brim = kInfinity;
+            for (const Vec3& p : mouth) brim = std::min(brim, out.dot(p));
+            std::erase_if(standing, [&](const auto& part) {
+                return !(reach(model_, part, out) < brim - model_.tolerance);
+            });
+        }
+        std::vector<FaceId> result;
+        for (const std::vector<FaceId>& part : standing)
+            result.insert(result.end(), part.begin(), part.end());
+        return result;
     }
-    for (const Rim& rim : mouths) {
-        if (!of_outside.contains(rim.uses.front().edge)) continue;
-        const std::vector<Vec3> mouth = loop_places(model, rim.uses);
-        const Vec3 out = geometry::newell_vector(mouth).stableNormalized();
-        double brim = kInfinity;
-        for (const Vec3& p : mouth) brim = std::min(brim, out.dot(p));
-        std::erase_if(parts,
-                      [&](const auto& part) { return !(reach(model, part, out) < brim - model.tolerance); });
+
+private:
+    /// The hollows with two or more rims of which none is on a part.
+    const std::vector<std::size_t>& hollows_off(std::size_t part)
+    {
+        const auto [found, fresh] = off_.try_emplace(part);
+        for (std::size_t h = 0; fresh && h < hollows_.size(); ++h) {
+            const std::set<EdgeId> own = rim_edges(model_, hollows_[h].faces);
+            if (hollows_[h].mouths > 1 &&
+                std::ranges::none_of(own, [&](EdgeId edge) { return part_at_[edge.index()] == part; }))
+                found->second.push_back(h);
+        }
+        return found->second;
     }
-    for (const std::vector<FaceId>& part : parts) result.insert(result.end(), part.begin(), part.end());
-    return result;
-}
+
+    const Model& model_;
+    const std::vector<Hollow>& hollows_;
+    std::vector<std::vector<FaceId>> parts_;
+    std::vector<double> area_;         ///< of the parts [model length²]
+    std::vector<std::size_t> part_at_; ///< by edge: the part that it bounds; `kNoIndex`: none
+    std::map<std::size_t, std::vector<std::size_t>> off_; ///< see `hollows_off()`
+};
 
 /// Groups of faces, and the groups that share an edge with each.
 struct FaceGroups {
@@ -269,8 +303,9 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
             take(wider);
         }
     }
+    Standing standing(model, found);
     for (Hollow& hollow : found)
-        if (hollow.mouths > 1) hollow.inside = enclosed_by(model, hollow.faces, found);
+        if (hollow.mouths > 1) hollow.inside = standing.in(hollow.faces);
     for (Hollow& hollow : found)
         for (std::vector<FaceId>* faces : {&hollow.faces, &hollow.inside})
             for (FaceId& face : *faces) face = outer[face.index()];
@@ -320,36 +355,41 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
     for (std::size_t h = 0; h < found.size(); ++h)
         if (taken.contains(first[h])) std::ranges::copy(found[h].faces, std::back_inserter(cavity));
     if (cavity.empty()) return {};
-    for (const FaceId face : enclosed_by(model, cavity, found)) cavity.push_back(face);
+    for (const FaceId face : Standing(model, found, cavity).in(cavity)) cavity.push_back(face);
     for (FaceId& face : cavity) face = outer[face.index()];
     std::sort(cavity.begin(), cavity.end());
     return cavity;
 }
 
-double share_of_bodies(const Model& model, const std::vector<FaceId>& faces)
+Bodies::Bodies(const Model& model) : body_(model.faces.size(), kNoIndex)
 {
-    std::vector<bool> named(model.faces.size(), false);
-    for (const FaceId face : faces) named[face.index()] = true;
-    std::vector<double> share(model.faces.size(), 1);
+    for (const FaceId face : all_faces(model)) area_.push_back(face_area(model, face));
     for (const std::vector<FaceId>& shell : closed_shells(model)) {
-        double part = 0, all = 0; // area that is named, and of the skin [model length²]
+        if (!(volume_integral(model, shell) > 0)) continue;
+        double& skin = skin_.emplace_back(0);
         for (const FaceId face : shell) {
-            const double area = face_area(model, face);
-            all += area;
-            if (named[face.index()]) part += area;
+            body_[face.index()] = skin_.size() - 1;
+            skin += area_[face.index()];
         }
-        if (volume_integral(model, shell) > 0)
-            for (const FaceId face : shell) share[face.index()] = part / all;
+    }
+}
+
+double Bodies::share_of(const std::vector<FaceId>& faces) const
+{
+    std::map<std::size_t, double> named; // area of each body
+    for (const FaceId face : faces) {
+        if (body_[face.index()] == kNoIndex) return 1;
+        named[body_[face.index()]] += area_[face.index()];
     }
     double largest = 0;
-    for (const FaceId face : faces) largest = std::max(largest, share[face.index()]);
+    for (const auto& [body, area] : named) largest = std::max(largest, area / skin_[body]);
     return largest;
 }
 
-bool lies_in_material(const Model& model, const Model& sealed)
+bool lies_in_material(const Model& model, const std::vector<FaceId>& faces, const Model& sealed)
 {
     std::map<int, FaceId> by_tag;
-    for (const FaceId face : all_faces(model)) by_tag.try_emplace(model[face].tag, face);
+    for (const FaceId face : faces) by_tag.emplace(model[face].tag, face);
     double alike = 0; // area with the same outward side [model length²]
     for (const FaceId face : all_faces(sealed)) {
         const auto found = by_tag.find(sealed[face].tag);

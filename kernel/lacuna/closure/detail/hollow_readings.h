@@ -3,11 +3,17 @@
 
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/readings.h>
+#include <lacuna/topology/shared/hollows.h>
 
 #include <optional>
 #include <vector>
 
 namespace lacuna::closure {
+
+/// As the function without `bodies`, for many voids of one model.
+/// @param bodies  of the model
+std::vector<Reading> find_readings(const topology::Model& model, const std::vector<FaceId>& faces,
+                                   const topology::Bodies& bodies, const RunContext& context);
 
 /// The reading of a hollow whose bottom blends smoothly into its walls: the bottom is cut from the walls
 /// across the blend (`part_bowl()`). Empty for other faces.

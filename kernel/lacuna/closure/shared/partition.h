@@ -54,8 +54,8 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 ///   their middles where that is possible. If no cut helps, the only piece is the volume itself, with other
 ///   ends if there are any;
 /// - the pieces of up to five other cuts of the volume; these pieces are cut further in the same way;
-/// - cut at branches and steps once more, also with a round bottom as an end; pieces that cannot be swept get
-///   other ends, or the rounds at the rims of their ends are divided.
+/// - the cuts at branches and steps whose pieces could not be swept, also above a round bottom, with other
+///   ends, or with the rounds at the rims of their ends divided.
 /// @param least  the least distance between a cut and an edge beside it, unless the volume itself is that
 ///               thin there [model length].
 /// @param take   called with pieces and their ends; those without ends cannot be swept. If no cut helps, the

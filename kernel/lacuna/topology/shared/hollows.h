@@ -57,14 +57,25 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
 std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context = {});
 
-/// The share of the skins of closed bodies, whose faces point outward, that some faces are, by area; the
-/// largest of several bodies. 1 if a face belongs to no such body.
-double share_of_bodies(const Model& model, const std::vector<FaceId>& faces);
+/// The closed bodies of a model whose faces point outward.
+class Bodies {
+public:
+    explicit Bodies(const Model& model);
+
+    /// The share of the skins of bodies that some faces are, by area; the largest of several bodies. 1 if a
+    /// face belongs to no body.
+    [[nodiscard]] double share_of(const std::vector<FaceId>& faces) const;
+
+private:
+    std::vector<std::size_t> body_; ///< by face; `kNoIndex`: none
+    std::vector<double> area_;      ///< of the faces [model length²]
+    std::vector<double> skin_;      ///< areas of the bodies [model length²]
+};
 
 /// Whether a sealed volume lies in the material of the bodies to which its given faces belong, by area.
-/// @param model   the bodies, closed and oriented outward
-/// @param sealed  faces of the model with their tags, and void faces; oriented outward
-bool lies_in_material(const Model& model, const Model& sealed);
+/// @param faces   of the bodies in `model`
+/// @param sealed  these faces with their tags, and void faces; oriented outward
+bool lies_in_material(const Model& model, const std::vector<FaceId>& faces, const Model& sealed);
 
 /// The first of some faces that lies inside a volume; checked where the face is deepest in the volume's box.
 /// @param tree  of the facets of the volume.
