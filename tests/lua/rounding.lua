@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Voids in blocks of a deck, and in bodies of facets, that were turned and written with few digits: the
--- default tolerance follows the digits, and what is flat in the original is flat.
+-- Voids in blocks of a deck that were bent a little, or turned and written with few digits: the default
+-- tolerance follows the sides of the cells and the digits, and what looks flat is flat.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 local params = lacuna.params { lacuna = "", scratch = "" }
@@ -21,7 +21,7 @@ local function flat(x, y, z) return x, y, z end
 local function bent(x, y, z)
   local length = n * size
   local b = math.sin(math.pi * x / length) * math.sin(math.pi * y / length) * math.sin(math.pi * z / length)
-  return x + 1e-5 * b, y - 1.3e-5 * b, z + 0.8e-5 * b
+  return x + 1e-3 * b, y - 1.3e-3 * b, z + 0.8e-3 * b
 end
 
 -- A deck of a block of cells without some of them, and how many these are.
@@ -94,10 +94,8 @@ for _, name in ipairs(names) do
     check.equal(mesh.hexes, missing, at)
     check.near(mesh:quality().volume, missing * size ^ 3, 1e-4 * missing * size ^ 3)
     mesh:write(params.scratch .. "/joined.inp", { with = model })
-    -- The tolerance: no more than two units of the last digit, far below the sides of the mesh.
-    local unit = 10.0 ^ (2 - digits)
-    check.that(model.tolerance <= math.max(2.01 * unit, 1.001e-6 * model.diagonal), at)
-    check.that(digits > 6 or model.tolerance > 1.99 * unit, at)
+    -- The tolerance: two units of the last digit, or a thousandth of a side.
+    check.near(model.tolerance, math.max(2 * 10.0 ^ (2 - digits), 1e-3 * size), 2e-6 * size, at)
   end
 end
 
@@ -107,8 +105,28 @@ do
   for _, scale in ipairs { 1, 0.001, 123 } do
     deck(path, voids.steps, function(x, y, z) return scale * x, scale * y, scale * z end, 9)
     local model = lacuna.load(path)
-    check.near(model.tolerance, 1e-6 * model.diagonal, 1e-9 * model.diagonal)
+    check.near(model.tolerance, 1e-3 * scale * size, 1e-9 * scale)
   end
+end
+
+-- Parts that are closer than that share their nodes, with a note; with a smaller tolerance they do not.
+do
+  local path = params.scratch .. "/gap.inp"
+  deck(path, function(i) return i == n - 1 end, function(x, y, z) return x, y, z end, 12)
+  local file = io.open(path, "a")
+  file:write "*NODE\n"
+  for i, at in ipairs { { 25.003, 0 }, { 30, 0 }, { 30, 5 }, { 25.003, 5 } } do
+    for k = 0, 1 do file:write(("%d, %.12g, %g, %g\n"):format(1000 + 4 * k + i, at[1], at[2], 5 * k)) end
+  end
+  file:write "*ELEMENT, TYPE=C3D8, ELSET=OTHER\n5000, 1001, 1002, 1003, 1004, 1005, 1006, 1007, 1008\n"
+  file:close()
+  local function is_noted(options)
+    local recipe = ("require('lacuna').load(%q, %s)"):format(path, options)
+    local _, _, notes = check.run(params.lacuna, params.scratch, { "-" }, recipe)
+    return notes:find("points that are up to 0.003 apart are read as one", 1, true) ~= nil
+  end
+  check.that(is_noted "{}")
+  check.that(not is_noted "{ tolerance = 1e-3 }")
 end
 
 -- Numbers with a unit as large as the cells merge no nodes: the tolerance is at most a hundredth of a side.

@@ -73,9 +73,12 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
     for (const Vec3& p : points) box.extend(p);
     facets.diagonal = box.diagonal().norm();
     check_size(box.min(), box.max(), facets.diagonal);
-    facets.tolerance = tolerance > 0 ? tolerance : std::max(kFileAccuracy * facets.diagonal, soup.rounding);
+    facets.tolerance = tolerance > 0 ? tolerance
+                                     : std::max(kFileAccuracy * facets.diagonal, soup.least_tolerance);
 
     const std::vector<Index> joined = weld(points, facets.tolerance, context);
+    for (std::size_t p = 0; p < points.size() && tolerance == 0; ++p)
+        facets.joined = std::max(facets.joined, (points[p] - points[index(joined[p])]).norm());
     const std::vector<Index> kept = keep_if(
         points, [&](std::size_t p) { return joined[p] == static_cast<Index>(p); });
     for (Index& p : number)

@@ -561,6 +561,12 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     model.points = facets.points;
     model.tolerance = facets.tolerance;
     model.diagonal = facets.diagonal;
+    if (facets.joined > kFileAccuracy * facets.diagonal) {
+        model.notes.push_back(Message("healing.joined_points",
+                                      "points that are up to {:.2g} apart are read as one", facets.joined)
+                                  .remedy("load with a smaller 'tolerance' to keep them apart")
+                                  .as_warning());
+    }
     if (facets.repeated > 0) {
         model.notes.push_back({"healing.repeated_facets", "{} {} listed twice; one of each is kept",
                                facets.repeated, facets.repeated == 1 ? "facet was" : "facets were"});

@@ -28,8 +28,8 @@ namespace lacuna::healing {
 /// Options of `split_facets()`.
 struct SplitOptions {
     double feature_angle = 40; ///< faces end at sides where adjacent facets turn by more than this [degrees]
-    double tolerance = 0;      ///< points closer than this are merged [model length]; 0: 1e-6 × the diagonal,
-                               ///< or `FacetSoup::rounding` if that is larger
+    double tolerance = 0; ///< points closer than this are merged [model length]; 0: 1e-6 × the diagonal,
+                          ///< or `FacetSoup::least_tolerance` if that is larger
     bool whole_labels =
         false; ///< whether a label stays one face at any angle; then only vertices depend on `feature_angle`
     bool keep_noise = false; ///< whether the points of noisy facets stay where they are
@@ -48,8 +48,7 @@ struct FacetSoup {
     /// By label: whether its facets are a mesh whose nodes must be kept. For labels beyond the end of the
     /// list, those of quads are.
     std::vector<char> label_keeps_nodes;
-    double rounding = 0; ///< the default tolerance is at least this: how far rounding in the file may have
-                         ///< moved a point off the line or plane of others [model length]
+    double least_tolerance = 0; ///< the default tolerance is at least this [model length]
 };
 
 /// Split facets into faces: by label, then at sides where adjacent facets turn by more than the feature

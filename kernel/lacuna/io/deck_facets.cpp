@@ -86,7 +86,7 @@ public:
     Facets(const Deck& deck, double tolerance)
         : deck_(deck), tolerance_(tolerance), shells_(deck, 2), solids_(deck, 3)
     {
-        file_.soup.rounding = rounding_of(deck);
+        file_.soup.least_tolerance = least_tolerance(deck);
     }
 
     FacetFile gather()
@@ -199,7 +199,7 @@ private:
         for (const Vec3& p : deck_.points) box.extend(p);
         return healing::weld(deck_.points, tolerance_ > 0 ? tolerance_
                                                           : std::max(kFileAccuracy * box.diagonal().norm(),
-                                                                     file_.soup.rounding));
+                                                                     file_.soup.least_tolerance));
     }
 
     /// Process the sides and shells with the same corners, solids first.

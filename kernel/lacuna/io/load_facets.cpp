@@ -99,7 +99,7 @@ void append(FacetFile& all, FacetFile more)
     move_in(all.label_tag, more.label_tag);
     move_in(all.labels, more.labels);
     move_in(all.notes, more.notes);
-    all.soup.rounding = std::max(all.soup.rounding, more.soup.rounding);
+    all.soup.least_tolerance = std::max(all.soup.least_tolerance, more.soup.least_tolerance);
 }
 
 /// A model with the entities of `first`, followed by those of `second`. Tags of faces, edges and vertices of
@@ -183,7 +183,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     }
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
-    all.soup.rounding *= options.scale;
+    all.soup.least_tolerance *= options.scale;
     if (!options.keep_mesh) split_quads(all.soup);
     // Names may be equal or missing, so during splitting each face is named by the number of its label.
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});

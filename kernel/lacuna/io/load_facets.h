@@ -12,7 +12,7 @@
 //   reader of a format                         <format>_reader.cpp, med.cpp; libmedC: med_library.cpp
 //   cards and frames of Nastran                nastran_cards.cpp, nastran_frames.cpp
 //   cards, parts and instances of Abaqus       abaqus_cards.cpp, abaqus_parts.cpp
-//   faces of a mesh                            deck_facets.cpp; accuracy of its numbers: rounding.cpp
+//   faces of a mesh                            deck_facets.cpp; default_tolerance.cpp
 //   options of writing                         mesh_file.cpp
 //   writer of a format                         <format>_writer.cpp, vtk.cpp, med.cpp, msh.cpp, msh_groups.cpp
 //   views of meshes and decks for writers      swept_view.cpp, deck_view.cpp; nodes: node_reader.cpp
@@ -86,7 +86,7 @@ FacetFile read_facets(const std::string& name, std::string_view bytes);
 /// Options of `load_facets()` and `cad::load()`.
 struct LoadOptions {
     double tolerance = 0;      ///< gaps below it are sewn [model length]; 0: 1e-6 × the diagonal, or, if
-                               ///< larger, what the rounding of coordinates in a mesh file calls for
+                               ///< larger, `least_tolerance()` of a mesh file
     double feature_angle = 40; ///< angle above which facets are split into faces [degrees]
     bool keep_mesh = true;     ///< quads of FE formats are kept
     bool keep_noise = false;   ///< points of noisy facets stay where they are

@@ -18,6 +18,7 @@ struct Facets {
     std::vector<Index> quad; ///< by facet: index in `quads` of the quad that contains the facet; -1: none
     std::vector<Quad> quads;
     double tolerance = 0, diagonal = 0;
+    double joined = 0; ///< largest distance of points that became one by the default tolerance [model length]
     std::size_t repeated = 0; ///< number of facets dropped because they repeat an earlier one
     std::size_t shrunk = 0;   ///< number of triangles and quads dropped because welding merged their corners
 

@@ -45,11 +45,8 @@ double last_unit(const Deck& deck)
 
 } // namespace
 
-double rounding_of(const Deck& deck)
+double least_tolerance(const Deck& deck)
 {
-    // A rounded point is off by at most √3/2 units, and so are those that it is compared with.
-    const double rounding = 2 * last_unit(deck);
-    if (!(rounding > 0)) return 0;
     double shortest = kInfinity; // squared
     for (const DeckBlock& block : deck.blocks) {
         for (std::size_t e = 0; e < block.count(); ++e) {
@@ -62,7 +59,10 @@ double rounding_of(const Deck& deck)
             }
         }
     }
-    return std::min(rounding, kAlikeSizes * std::sqrt(shortest));
+    if (shortest == kInfinity) return 0;
+    const double side = std::sqrt(shortest);
+    // A rounded point is off by at most √3/2 units, and so are those that it is compared with.
+    return std::clamp(2 * last_unit(deck), kVisible * side, kAlikeSizes * side);
 }
 
 } // namespace lacuna::io
