@@ -99,6 +99,48 @@ for _, name in ipairs(names) do
   end
 end
 
+-- A box hovers above the floor of a pocket. Where its outline runs along lines of the floor's mesh, cuts do
+-- too; elsewhere they do not cross the mesh, of which every quad is kept.
+for _, low in ipairs { 10, 12 } do
+  local block, insert = params.scratch .. "/pocket.inp", params.scratch .. "/insert.stl"
+  local removed = deck(block, boxes { 1, 5, 1, 5, 2, 6 }, flat, 9)
+  local high, facets = low + 5, {}
+  local function facet(...)
+    local lines = {}
+    for _, p in ipairs { ... } do lines[#lines + 1] = "vertex " .. table.concat(p, " ") end
+    facets[#facets + 1] = "facet normal 0 0 0\nouter loop\n" .. table.concat(lines, "\n") ..
+      "\nendloop\nendfacet\n"
+  end
+  local bottom = { { low, low, 15 }, { high, low, 15 }, { high, high, 15 }, { low, high, 15 } }
+  for i, a in ipairs(bottom) do
+    local b = bottom[i % 4 + 1]
+    facet(a, b, { b[1], b[2], 30 })
+    facet(a, { b[1], b[2], 30 }, { a[1], a[2], 30 })
+  end
+  facet(bottom[1], bottom[3], bottom[2])
+  facet(bottom[1], bottom[4], bottom[3])
+  check.write(insert, "solid insert\n" .. table.concat(facets) .. "endsolid insert\n")
+  local model = lacuna.load { block, insert }
+  local faces = {}
+  for _, cavity in ipairs(model:cavities()) do
+    if #cavity.faces > #faces then faces = cavity.faces end
+  end
+  local mesh = model:open_volume { faces = faces }:sweep { fallback = "mixed" }
+  local expected = removed * size ^ 3 - 5 * 5 * 15
+  check.near(mesh:quality().volume, expected, 1e-6 * expected)
+  check.that(low == 12 or mesh.tets == 0)
+  mesh:write(params.scratch .. "/out.inp")
+  local floor = 0
+  for line in io.lines(params.scratch .. "/out.inp") do
+    local x, y, z = line:match "^%s*%d+,%s*(%S+),%s*(%S+),%s*(%S+)$"
+    if z and tonumber(z) == 2 * size then
+      floor = floor + 1
+      check.that(tonumber(x) % size == 0 and tonumber(y) % size == 0, line)
+    end
+  end
+  check.equal(floor, 25)
+end
+
 -- Numbers that are short because they are exact give no larger tolerance, nor do a few long ones among them.
 do
   local path = params.scratch .. "/exact.inp"

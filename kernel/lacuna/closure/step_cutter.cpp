@@ -227,6 +227,13 @@ private:
         for (Imprinted& image : images_)
             if (image.target == id) own.push_back(&image);
         if (own.empty()) return;
+        if (builder_[id].keeps_nodes) {
+            throw NotSweepable(
+                Message("topology.splits_mesh", "the outline of the step at {} crosses the given mesh of {}",
+                        entity_of(builder_, steps_.parts[own.front()->part].front()), entity_of(builder_, id))
+                    .remedy("load with keep_mesh = false, or cut the volume along lines of "
+                            "the mesh with cut{{ plane = … }}"));
+        }
         // The loops of the face, then the projected rims. Each region lies inside one loop and outside the
         // loops directly within this loop.
         struct Ring {
