@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/close.h>
 
+#include <lacuna/closure/detail/axis_rims.h>
 #include <lacuna/closure/detail/close_class.h>
 #include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/detail/no_roles.h>
-#include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/smooth_ends.h>
 #include <lacuna/closure/detail/stubs.h>

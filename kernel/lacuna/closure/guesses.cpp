@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/guesses.h>
 
+#include <lacuna/closure/detail/axis_rims.h>
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
-#include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/thin_plate.h>
 #include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/core/shared/criteria.h>

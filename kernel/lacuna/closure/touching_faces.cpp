@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/outline.h>
+#include <lacuna/closure/detail/round_patch.h>
 #include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/shared/criteria.h>

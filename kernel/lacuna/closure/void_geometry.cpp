@@ -4,7 +4,7 @@
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
-#include <lacuna/closure/detail/round_walls.h>
+#include <lacuna/closure/detail/round_patch.h>
 #include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
 #include <lacuna/closure/detail/void_entities.h>

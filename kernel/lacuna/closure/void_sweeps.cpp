@@ -9,6 +9,7 @@
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>

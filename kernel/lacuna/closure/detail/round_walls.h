@@ -33,9 +33,6 @@ void add_wall(FlatFilling& filling, const std::vector<std::vector<topology::Edge
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);
 
-/// Radius of a rim that is a circle; empty for any other rim.
-std::optional<double> radius_of_circle(const topology::Model& model, const topology::Rim& rim);
-
 /// Whether a flat face in a rim would lie in the plane of all given faces round the rim. If so, a wall is
 /// missing there.
 bool continues_given_planes(const topology::Model& model, const topology::Rim& rim);
@@ -64,24 +61,5 @@ bool is_bent_ring(const topology::Model& model, FaceId face);
 /// @return  the loops of the faces that are left; the image of a rim takes the place of the rim.
 std::vector<topology::Loop> add_straight_walls(FlatFilling& filling, std::vector<topology::Loop> loops,
                                                const RunContext& context);
-
-/// The edge in which a plane meets the circular cylinder along some consecutive sides of a missing face, from
-/// the end of the last side to the start of the first one. The face does not run round the axis.
-/// @param sides  the places of each side, both ends included. Sides that are arcs about the axis or straight
-///               determine the axis.
-/// @return  empty if the sides are not on one cylinder, if the plane is parallel to its axis, or if the edge
-///          would be straight.
-std::vector<Vec3> edge_in_plane(const std::vector<std::vector<Vec3>>& sides, const geometry::Plane& plane);
-
-/// Whether the sides of a rim that given faces share determine a circular cylinder or cone on which the whole
-/// rim lies, and the rim does not run round its axis.
-bool given_sides_show_round_wall(const topology::Model& model, const topology::Loop& loop);
-
-/// Fill a rim with a face on the circular cylinder or cone through the rim, unless the rim runs round the
-/// axis of that surface. The surface is found from an edge of the rim that is an arc about its axis, or from
-/// a straight edge along the axis of a cylinder. The facets are made on the unrolled surface.
-/// @return  empty if the rim lies on no such surface.
-std::optional<VoidFilling> fill_round_patch(const topology::Model& model, const topology::Loop& loop,
-                                            const RunContext& context);
 
 } // namespace lacuna::closure
