@@ -324,6 +324,26 @@ BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2:3}; Delete; };]]):format(radi
     "blind branch of radius " .. radius)
 end
 
+-- The mouths of a pipe with a dead leg end different pieces, and each is a group of its own.
+do
+  local file = params.scratch .. "/dead_leg.geo"
+  check.write(file, [[
+SetFactory("OpenCASCADE");
+Cylinder(1) = {-150, 0, 0, 300, 0, 0, 40}; Cylinder(2) = {0, 0, 0, 0, 0, 120, 25};
+BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])
+  local model = lacuna.load(file)
+  local faces = {}
+  for _, face in ipairs(model:info().faces) do
+    if face.kind ~= "plane" or math.abs(face.centroid[1]) < 149 then faces[#faces + 1] = face.tag end
+  end
+  local mouths = {}
+  for _, group in ipairs(model:open_volume({ faces = faces }):sweep({ size = 16 }):groups()) do
+    if group.name:match "^void:%d+$" then mouths[#mouths + 1] = group.cells end
+  end
+  check.equal(#mouths, 2)
+  check.equal(mouths[1], mouths[2])
+end
+
 -- Chambers with ports to several sides whose outer ends are missing: boxes, vessels with a ledge, and balls.
 local chambers = {
   box = "Box(1) = {-50, -40, -30, 100, 80, 60};",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/filled.h>
 
+#include <lacuna/core/error.h>
 #include <lacuna/io/leave_out.h>
 #include <lacuna/io/shared/mixed_deck.h>
 #include <lacuna/quality/shared/second_order.h>

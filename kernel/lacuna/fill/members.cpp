@@ -20,6 +20,7 @@
 #include <lacuna/sweep/shared/imprinted.h>
 #include <lacuna/sweep/shared/turn_at_axis.h>
 #include <lacuna/topology/shared/left_out.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <algorithm>
 #include <array>
@@ -185,12 +186,22 @@ struct Prepared {
     std::vector<sweep::LeftOut> left_out;
 };
 
+/// The highest tag of a model's void faces, or `least` if that is higher.
+int last_void_face(const topology::Model& model, int least)
+{
+    return topology::next_tag(model.faces, topology::Origin::made_void, 0, least + 1) - 1;
+}
+
 /// Close the volumes. A volume without ends to sweep between can only be filled with tetrahedra.
 Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, bool alone,
                  const RunContext& context)
 {
     Prepared ready;
     ready.left_out = std::move(left_out);
+    // Void faces that close pieces of one volume are groups of one mesh, so their tags differ.
+    std::map<const Member*, int> last;
+    for (const Part& part : all)
+        if (!part.kept) last[part.asked] = last_void_face(part.volume.volume.model, last[part.asked]);
     for (std::size_t p = 0; p < all.size(); ++p) {
         Part& part = all[p];
         const std::string number = formatted("volume_{}", p + 1);
@@ -211,7 +222,14 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
                 part.volume = close(part.volume, {}, context);
             }
         };
+        topology::Model& model = part.volume.volume.model;
+        if (last[part.asked] > last_void_face(model, 0)) {
+            topology::ModelBuilder numbered(std::move(model));
+            numbered.last_void_face = last[part.asked];
+            model = std::move(numbered).finish();
+        }
         if (part.left_out || !do_or_leave_out(ready.left_out, region, *part.asked, close_part)) continue;
+        last[part.asked] = last_void_face(part.volume.volume.model, last[part.asked]);
         ready.materials.push_back(part.volume.material);
         ready.members.push_back(member_of(part, region, alone));
         ready.members.back().unswept = mixed &&

@@ -308,7 +308,7 @@ FaceId ModelBuilder::add_void_face(Geometry geometry)
 {
     Face face;
     face.tag = face_tag_ = next_tag(faces, Origin::made_void, std::exchange(tagged_faces_, faces.size()),
-                                    face_tag_);
+                                    std::max(face_tag_, last_void_face + 1));
     face.origin = Origin::made_void;
     face.geometry = geometry;
     face.kind = "void";

@@ -95,6 +95,7 @@ struct ModelParts {
     double tolerance = 0;       ///< points closer than this coincide [model length]
     std::string source;         ///< the file(s) it was read from, for messages
     std::vector<Message> notes; ///< entities that loading dropped or left unconnected, one sentence each
+    int last_void_face = 0;     ///< highest tag of the void faces of other pieces of one volume
 
 private:
     friend class Model;
@@ -213,8 +214,7 @@ Model with_loops(Model model, const RunContext& context = {});
 
 /// Flip faces until neighbours agree along shared edges, starting at the first face of each connected part. A
 /// part that encloses a volume is oriented outward.
-/// @throw InvalidInput  a part that cannot be oriented (a Möbius band), or an edge with three faces; names
-///         them.
+/// @throw InvalidInput  names a part that cannot be oriented (a Möbius band), or an edge with three faces.
 void orient_consistently(Model& model);
 
 } // namespace lacuna::topology
