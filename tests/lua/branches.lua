@@ -324,6 +324,22 @@ BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2:3}; Delete; };]]):format(radi
     "blind branch of radius " .. radius)
 end
 
+-- Rings of pipes: tubes lead from header to header, so that a cut at one mouth divides nothing.
+for _, member in ipairs { { { -60, 60 }, { 60, 10 }, { 140, 14 } },
+  { { -70, 0, 70 }, { 60, 9 }, { 120, 9 }, { 180, 9 } } } do
+  local geo = {}
+  for k, y in ipairs(member[1]) do geo[k] = ("Cylinder(%d) = {0, %g, 0, 240, 0, 0, 20};"):format(k, y) end
+  for k = 2, #member do
+    local x, radius = table.unpack(member[k])
+    geo[#geo + 1] = ("Cylinder(%d) = {%g, %g, 0, 0, %g, 0, %g};"):format(
+      #geo + 1, x, member[1][1], member[1][#member[1]] - member[1][1], radius)
+  end
+  local bodies = #geo
+  geo[#geo + 1] = ("BooleanUnion(%d) = { Volume{1}; Delete; }{ Volume{2:%d}; Delete; };"):format(
+    bodies + 1, bodies)
+  is_swept(table.concat(geo, "\n"), 7, 0.3, #member[1] .. " headers")
+end
+
 -- The mouths of a pipe with a dead leg end different pieces, and each is a group of its own.
 do
   local file = params.scratch .. "/dead_leg.geo"

@@ -2,6 +2,7 @@
 #include <lacuna/closure/shared/branches.h>
 
 #include <lacuna/closure/detail/branch_mouths.h>
+#include <lacuna/closure/detail/branch_rings.h>
 #include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
@@ -29,6 +30,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -582,6 +584,12 @@ std::vector<StepPiece> cut_branches(const OpenVolume& volume, std::set<int>& lin
 {
     Branching found = find_mouths(volume, context);
     if (found.mouths.empty()) return {{.volume = volume}};
+    if (const std::vector<StepPiece> parts = cut_rings(volume, found, context); !parts.empty()) {
+        std::vector<StepPiece> result;
+        for (const StepPiece& part : parts)
+            std::ranges::move(cut_branches(part.volume, lined, context), std::back_inserter(result));
+        return result;
+    }
     if (!found.passed.empty())
         return cut_branches(with_junctions_joined(volume, found, context), lined, context);
     std::vector<StepPiece> result;
