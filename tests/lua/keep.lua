@@ -314,4 +314,33 @@ do
   end
   os.remove(path)
 end
+-- Tubes of quads round each other with the same rows, whose points are numbered from different places round
+-- the axis: nodes correspond, so that both keep their quads and no column turns.
+local round, rows, length = 48, 4, 60
+local function tube(model, name, radius, first)
+  local points, cells = {}, {}
+  for k = 0, rows do
+    for j = 0, round - 1 do
+      local angle = 2 * math.pi * (j + first) / round
+      points[#points + 1] = { radius * math.cos(angle), radius * math.sin(angle), length * k / rows }
+    end
+  end
+  for k = 0, rows - 1 do
+    for j = 0, round - 1 do
+      local a, b = j + 1, (j + 1) % round + 1
+      cells[#cells + 1] = { k * round + a, k * round + b, (k + 1) * round + b, (k + 1) * round + a }
+    end
+  end
+  return model:add_face { name = name, points = points, cells = cells, keep_mesh = true }
+end
+for _, first in ipairs { 0, 1, 2, 7 } do
+  local model = lacuna.model()
+  local inner, outer = tube(model, "inner", 30, 0), tube(model, "outer", 34, first)
+  local quality = model:open_volume({ source = inner, target = outer }):sweep({ layers = 4 }):quality()
+  check.that(quality.min_scaled_jacobian > 0.99, first)
+  local turn = 2 * math.pi / round
+  local expected = length * round / 2 * math.sin(turn) * (34 ^ 2 - 30 ^ 2)
+  check.near(quality.volume, expected, 1e-9 * expected)
+end
+
 check.done()

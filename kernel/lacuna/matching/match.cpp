@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/attempt.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/core/shared/list_text.h>
@@ -267,13 +268,26 @@ private:
                                 .remedy("give 'vertices' in the same order around both loops"));
         }
         const ArcPairs pairs = pair_by_arc(low_loop, high_loop, chosen_[s].offset, chosen_[s].backward, hard,
-                                           most_twist());
+                                           largest_twist(s));
         for (const auto& [from, to] : pairs.vertices) add_pair(from, to);
         for (const auto& [vertex, share] : pairs.split_target)
             match_.splits.push_back(split_at(vertex, true, match_.target_loops[t], high, share));
         for (const auto& [vertex, share] : pairs.split_source)
             match_.splits.push_back(split_at(vertex, false, match_.source_loops[s], source, share));
         note_lengths(s, pairs.split_source.size() + pairs.split_target.size());
+    }
+
+    /// Largest distance of paired smooth vertices, as a share of the loop. Given sides correspond; elsewhere
+    /// columns between loops that are near each other must not lean by half of `kCreaseAngle`.
+    [[nodiscard]] double largest_twist(std::size_t s) const
+    {
+        const LoopShape& source = problem_.source[s];
+        if (source.by_sides) return 0.5 / static_cast<double>(given_sides(source));
+        double gap = kInfinity;
+        for (std::size_t i = 0; i < sampled_[s].from.size(); ++i)
+            gap = std::min(gap, (sampled_[s].from[i] - sampled_[s].to[i]).norm());
+        const double leaning = std::tan(kCreaseAngle / 2 * kDegree) * gap / source.length;
+        return std::clamp(leaning, kFileAccuracy, most_twist());
     }
 
     void note_lengths(std::size_t s, std::size_t splits)
