@@ -324,8 +324,9 @@ BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2:3}; Delete; };]]):format(radi
     "blind branch of radius " .. radius)
 end
 
--- Rings of pipes: tubes lead from header to header, so that a cut at one mouth divides nothing.
-for _, member in ipairs { { { -60, 60 }, { 60, 10 }, { 140, 14 } },
+-- Tubes lead from header to header: one, or several that close a ring, where a cut at one mouth divides
+-- nothing.
+for _, member in ipairs { { { -60, 60 }, { 120, 10 } }, { { -60, 60 }, { 60, 10 }, { 140, 14 } },
   { { -70, 0, 70 }, { 60, 9 }, { 120, 9 }, { 180, 9 } } } do
   local geo = {}
   for k, y in ipairs(member[1]) do geo[k] = ("Cylinder(%d) = {0, %g, 0, 240, 0, 0, 20};"):format(k, y) end

@@ -2,7 +2,7 @@
 #include <lacuna/closure/shared/branches.h>
 
 #include <lacuna/closure/detail/branch_mouths.h>
-#include <lacuna/closure/detail/branch_rings.h>
+#include <lacuna/closure/detail/connecting_tubes.h>
 #include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
@@ -584,7 +584,7 @@ std::vector<StepPiece> cut_branches(const OpenVolume& volume, std::set<int>& lin
 {
     Branching found = find_mouths(volume, context);
     if (found.mouths.empty()) return {{.volume = volume}};
-    if (const std::vector<StepPiece> parts = cut_rings(volume, found, context); !parts.empty()) {
+    if (const std::vector<StepPiece> parts = cut_connecting_tubes(volume, found, context); !parts.empty()) {
         std::vector<StepPiece> result;
         for (const StepPiece& part : parts)
             std::ranges::move(cut_branches(part.volume, lined, context), std::back_inserter(result));

@@ -23,7 +23,8 @@
 //   a source alone                          along.cpp; its motion: along_motion.cpp, along_normals.cpp
 //   one plane cut                           cut.cpp, pieces.cpp; a full turn: full_turn.cpp
 //   steps                                   steps.cpp, step_cutter.cpp
-//   branches, rounded rims                  branches.cpp, branch_mouths.cpp, branch_rings.cpp; round_rims.cpp
+//   branches, rounded rims                  branches.cpp, branch_mouths.cpp; round_rims.cpp
+//   tubes between two main bodies           connecting_tubes.cpp
 //   candidates of cuts                      cut_planes.cpp
 //   which cuts are made                     partition.cpp; a block per vertex: midpoint.cpp
 //   ends of pieces                          piece_ends.cpp

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/detail/branch_rings.h>
+#include <lacuna/closure/detail/connecting_tubes.h>
 
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/geometry/shared/affine.h>
-#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -16,18 +15,13 @@ namespace lacuna::closure {
 
 using namespace topology;
 
-std::vector<StepPiece> cut_rings(const OpenVolume& volume, const Branching& found, const RunContext& context)
+std::vector<StepPiece> cut_connecting_tubes(const OpenVolume& volume, const Branching& found,
+                                            const RunContext& context)
 {
     std::vector<std::vector<Vec3>> mouths_of(found.faces.size()); // by region: the centres of its mouths
-    geometry::UnionFind joined(found.faces.size());
-    bool closes_ring = false;
-    for (const Mouth& mouth : found.mouths) {
-        closes_ring = closes_ring || joined.find(mouth.host) == joined.find(mouth.branch);
-        joined.unite_least(mouth.host, mouth.branch);
+    for (const Mouth& mouth : found.mouths)
         for (const std::size_t region : {mouth.host, mouth.branch})
             mouths_of[region].push_back(geometry::mean_point(places(volume.model, mouth.edges)));
-    }
-    if (!closes_ring) return {};
     PartedVolume parted{volume};
     std::vector<std::size_t> region_of = found.region;
     for (std::size_t region = 0; region < mouths_of.size(); ++region) {
