@@ -10,6 +10,7 @@
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/bodies.h>
 #include <lacuna/topology/shared/cone_shape.h>
+#include <lacuna/topology/shared/face_facts.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
@@ -59,9 +60,7 @@ std::vector<TouchingBody> bodies_named(const Model& model, const std::vector<cha
         if (std::ranges::none_of(body.faces, [&](FaceId f) { return is_named[f.index()] != 0; })) continue;
         body.complete = std::ranges::all_of(
             body.faces, [&](FaceId f) { return is_named[f.index()] != 0 && is_free[f.index()] == 0; });
-        for (const FaceId face : body.faces)
-            for (const Triangle& t : model[face].triangles)
-                for (const Index p : t) body.box.extend(model.at(p));
+        for (const FaceId face : body.faces) body.box.extend(box_of(model, face));
         body.box.min().array() -= model.tolerance;
         body.box.max().array() += model.tolerance;
         bodies.push_back(std::move(body));

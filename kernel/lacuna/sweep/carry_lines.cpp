@@ -10,6 +10,7 @@
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/detail/turned_round.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -204,8 +205,7 @@ private:
 
     std::vector<FaceId> copy_faces(ModelBuilder& to)
     {
-        Vec3 area = Vec3::Zero();
-        for (const FaceId part : parts_) area += face_area_vector(from_, part);
+        const Vec3 area = area_vector_of(from_, parts_);
         const bool turned = area.dot(face_area_vector(to, whole_.front())) < 0;
         const Face before = to[whole_.front()];
         std::vector<FaceId> copied;

@@ -4,6 +4,7 @@
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/topology/shared/face_facts.h>
 
 #include <algorithm>
 #include <array>
@@ -88,10 +89,7 @@ struct NearFacets {
 Eigen::AlignedBox3d box_of(const OpenVolume& volume, double margin)
 {
     Eigen::AlignedBox3d box;
-    for (const Face& face : volume.model.faces) {
-        for (const Triangle& t : face.triangles)
-            for (const Index p : t) box.extend(volume.model.at(p));
-    }
+    for (const FaceId face : all_faces(volume.model)) box.extend(topology::box_of(volume.model, face));
     box.min().array() -= margin;
     box.max().array() += margin;
     return box;

@@ -9,6 +9,7 @@
 #include <lacuna/surface/shared/face_shape.h>
 #include <lacuna/sweep/detail/compare_face.h>
 #include <lacuna/sweep/detail/words.h>
+#include <lacuna/topology/shared/face_facts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -85,9 +86,7 @@ DeviationLimit limit_of(const Model& model, FaceId face, const FidelityOptions& 
 {
     const bool made_void = model[face].origin == Origin::made_void;
     const bool between = made_void && options.between.contains(face);
-    Eigen::AlignedBox3d box;
-    for (const Triangle& t : model[face].triangles)
-        for (const Index p : t) box.extend(model.at(p));
+    const Eigen::AlignedBox3d box = box_of(model, face);
     const double least = box.isEmpty()
                              ? 0
                              : std::min(kLeastOfModel * model.diagonal, kLeastOfFace * box.diagonal().norm());

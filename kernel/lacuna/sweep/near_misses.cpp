@@ -3,10 +3,12 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/shared/gaps.h>
@@ -195,12 +197,7 @@ private:
                     std::vector<NearMiss>& found, const RunContext& context)
     {
         const Model &model = of.volume->model, &other = at.volume->model;
-        std::vector<Triangle> facets;
-        std::vector<FaceId> face_of;
-        for (std::size_t f = 0; f < other.faces.size(); ++f) {
-            facets.insert(facets.end(), other.faces[f].triangles.begin(), other.faces[f].triangles.end());
-            face_of.resize(facets.size(), FaceId(f));
-        }
+        const surface::FacetSet facets = surface::facet_set(other, all_faces(other));
         std::optional<geometry::FacetTree> tree;
         Eigen::AlignedBox3d box;
         for (const Vec3& p : other.points) box.extend(p);
@@ -218,7 +215,7 @@ private:
                 return shared_[own][use.face.index()] || is_near(own, use.face);
             });
             if (taken) continue;
-            if (!tree) tree.emplace(other.points, facets);
+            if (!tree) tree.emplace(other.points, facets.triangles);
             const std::vector<double> arc = geometry::arc_lengths(line);
             const double sag = geometry::sag(line);
             double within = 0, most = 0, all = 0, least = kInfinity;
@@ -227,7 +224,7 @@ private:
                 const Vec3 p = geometry::point_at(line, arc, arc.back() * (i + 0.5) / kFineChords);
                 const auto hit = tree->closest(p, around * around);
                 if (hit.triangle < 0) continue;
-                const FaceId face = face_of[index(hit.triangle)];
+                const FaceId face = facets.face[index(hit.triangle)];
                 const double distance = std::sqrt(hit.distance2);
                 all += arc.back() / kFineChords;
                 if (distance > pair_.window || shared_[there][face.index()] ||

@@ -8,6 +8,7 @@
 #include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/sweep/detail/member_edge.h>
+#include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/topology/shared/facet_sag.h>
 
@@ -126,8 +127,7 @@ private:
                 side.faces.push_back({m, face});
                 side.normal += face_area_vector(volume.model, face);
                 side.area += face_area(volume.model, face);
-                for (const Loop& loop : border_loops(volume.model, face))
-                    for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
+                edges.merge(rim_edges(volume.model, face));
             }
             for (const EdgeId edge : edges) side.edges.push_back(member_edge(volume.model, m, edge));
         }
@@ -318,11 +318,9 @@ private:
 
     [[nodiscard]] std::vector<MemberEdge> edges_of(const MemberFace& face, const Isometry3d& by) const
     {
-        std::set<EdgeId> edges;
-        for (const Loop& loop : border_loops(model(face), face.face))
-            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
         std::vector<MemberEdge> read;
-        for (const EdgeId edge : edges) read.push_back(member_edge(model(face), face.member, edge, by));
+        for (const EdgeId edge : rim_edges(model(face), face.face))
+            read.push_back(member_edge(model(face), face.member, edge, by));
         return read;
     }
     /// The corresponding edges of two faces, in pairs. Empty if some edge has no counterpart.

@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/sweep/assembly.h>
+#include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/topology/shared/give_mesh.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -27,8 +28,7 @@ SameEdges::SameEdges(std::span<const AssemblyMember> members, std::span<const Sh
             edges_.push_back(member_edge(model(m), m, EdgeId(e)));
     }
     const auto add_beside = [&](std::size_t m, FaceId face) {
-        for (const Loop& loop : border_loops(model(m), face))
-            for (const EdgeUse& use : loop.uses) beside_.insert(number(m, use.edge));
+        for (const EdgeId edge : rim_edges(model(m), face)) beside_.insert(number(m, edge));
     };
     for (const auto& [m, face] : beside) add_beside(m, face);
     for (const SharedFace& face : shared) {

@@ -10,6 +10,8 @@
 #include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/words.h>
+#include <lacuna/topology/shared/face_facts.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/facet_sag.h>
 
 #include <algorithm>
@@ -227,12 +229,8 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
 /// A tree of a volume's facets. The tree is empty if the volume has free edges.
 geometry::FacetTree closed_skin(const OpenVolume& volume)
 {
-    std::vector<Triangle> facets;
-    if (free_edges(volume).empty()) {
-        for (const Face& face : volume.model.faces)
-            facets.insert(facets.end(), face.triangles.begin(), face.triangles.end());
-    }
-    return {volume.model.points, facets};
+    if (!free_edges(volume).empty()) return {};
+    return {volume.model.points, facets_of(volume.model, all_faces(volume.model))};
 }
 
 /// Refuse a volume if part of its skin is inside another volume, deeper than `depth` and than the errors of
@@ -281,9 +279,7 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
     // the other skin, weighted by their lengths, is then inside.
     std::vector<Vec3> middle(own.size(), Vec3::Zero());
     std::vector<double> length(own.size(), 0);
-    std::vector<Triangle> theirs;
-    for (const Side& side : sides_of_b)
-        theirs.insert(theirs.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
+    const std::vector<Triangle> theirs = facets_of(b.volume->model, all_faces(b.volume->model));
     geometry::FacetTree(model.points, own).overlaps(tree, [&](Index t, Index other) {
         const auto line = geometry::crossing_line(
             corners(model, own[index(t)]), corners(b.volume->model, theirs[index(other)]), model.tolerance);
@@ -327,11 +323,8 @@ struct MemberSides {
             const OpenVolume& volume = *members[m].volume;
             for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
                 if (f == sag[m].size()) sag[m].push_back(facet_sag(volume.model, volume.model.faces[f]));
-                Side side{&volume, FaceId(f), {}, sag[m][f]};
-                for (const Triangle& t : volume.model.faces[f].triangles)
-                    for (const Index p : t) side.box.extend(volume.model.at(p));
-                box[m].extend(side.box);
-                sides[m].push_back(std::move(side));
+                sides[m].push_back({&volume, FaceId(f), box_of(volume.model, FaceId(f)), sag[m][f]});
+                box[m].extend(sides[m].back().box);
             }
         }
     }
