@@ -8,6 +8,7 @@
 #include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/detail/edge_counts.h>
 #include <lacuna/sweep/detail/plan_heights.h>
+#include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/sweep/detail/same_edges.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/topology/shared/give_mesh.h>
@@ -61,6 +62,27 @@ private:
     std::vector<Vec3> points_;
     std::map<Cell, std::vector<std::size_t>> cells_;
 };
+/// Distribute `count` sides over the intervals of a line. Every interval gets one side; then each further
+/// side goes to the interval whose sides are longest.
+/// @param ends  positions of the vertices between the intervals, as shares of the line's length, from 0 to 1.
+/// @return  positions of the nodes, as shares of the line's length.
+std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count)
+{
+    std::vector<int> parts(ends.size() - 1, 1);
+    const auto side = [&](std::size_t i) { return (ends[i + 1] - ends[i]) / parts[i]; };
+    for (std::size_t k = parts.size(); k < count; ++k) {
+        std::size_t longest = 0;
+        for (std::size_t i = 1; i < parts.size(); ++i)
+            if (side(i) > side(longest) * (1 + kVisible)) longest = i;
+        ++parts[longest];
+    }
+    std::vector<double> at{0};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (int k = 1; k <= parts[i]; ++k) at.push_back(k == parts[i] ? ends[i + 1] : ends[i] + k * side(i));
+    }
+    return at;
+}
+
 /// Places the nodes of shared edges.
 class NodePlacer {
 public:
@@ -187,8 +209,8 @@ private:
     }
 
     /// Node positions as shares of an edge's length: the rows at its ends, and equal sides between the rows.
-    static std::vector<double> with_rows(const std::array<EdgeCounts::RowsHere, 2>& ends, double length,
-                                         bool along, int count)
+    static std::vector<double> with_rows(const std::array<EdgeRows, 2>& ends, double length, bool along,
+                                         int count)
     {
         const std::vector<double>&low = ends[along ? 0 : 1].places, &high = ends[along ? 1 : 0].places;
         std::vector<double> at{0};

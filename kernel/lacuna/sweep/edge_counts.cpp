@@ -11,7 +11,6 @@
 #include <lacuna/surface/shared/rim_breaks.h>
 #include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/assembly.h>
-#include <lacuna/sweep/detail/edge_rows.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/source_quads.h>
@@ -29,17 +28,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// Whether rows of boundary layers have the same heights.
-bool are_alike(const std::vector<double>& a, const std::vector<double>& b)
-{
-    if (a.size() != b.size()) return false;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double thick = a[i] - (i > 0 ? a[i - 1] : 0);
-        if (std::abs(a[i] - b[i]) > kVolumeNoted * thick) return false;
-    }
-    return true;
-}
 
 /// Four areas of the source divided by the length of its rims: a square's side, a circle's diameter, twice
 /// the width of a narrow strip or ring.
@@ -84,23 +72,6 @@ std::vector<double> default_sizes(const SameEdges& edges)
 
 } // namespace
 
-std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count)
-{
-    std::vector<int> parts(ends.size() - 1, 1);
-    const auto side = [&](std::size_t i) { return (ends[i + 1] - ends[i]) / parts[i]; };
-    for (std::size_t k = parts.size(); k < count; ++k) {
-        std::size_t longest = 0;
-        for (std::size_t i = 1; i < parts.size(); ++i)
-            if (side(i) > side(longest) * (1 + kVisible)) longest = i;
-        ++parts[longest];
-    }
-    std::vector<double> at{0};
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        for (int k = 1; k <= parts[i]; ++k) at.push_back(k == parts[i] ? ends[i + 1] : ends[i] + k * side(i));
-    }
-    return at;
-}
-
 EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
     : edges_(edges),
       context_(context),
@@ -132,7 +103,7 @@ EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
     find_directions();
     find_frame();
     find_across();
-    find_rows();
+    rows_ = shared_rows(edges);
     count();
     settle();
 }
@@ -290,55 +261,14 @@ void EdgeCounts::find_across()
         if (frame_[e] && across.contains({edges_[e].member, class_of(e)})) planned_[e] = true;
 }
 
-void EdgeCounts::find_rows()
-{
-    for (std::size_t m = 0; m < edges_.members().size(); ++m) {
-        for (auto& [edge, rows] : edge_rows(edges_.members()[m])) {
-            const std::size_t e = edges_.number(m, edge);
-            if (edges_[e].closed || edges_.kept(e) == SameEdges::Kept::quads) continue; // its nodes are given
-            if (!edges_.runs_along(e)) std::swap(rows[0], rows[1]);
-            std::array<RowsHere, 2>& here = rows_[edges_.set_of(e)];
-            for (std::size_t k = 0; k < 2; ++k) {
-                if (rows[k].places.empty()) continue;
-                if (here[k].places.empty()) {
-                    here[k] = {rows[k].places, m, rows[k].face, rows[k].heights};
-                    continue;
-                }
-                if (!are_alike(here[k].heights, rows[k].heights)) refuse_rows(here[k], m, rows[k].face, e);
-                // Rows of one table reach the edge at different lengths where walls lean differently.
-                ++here[k].faces;
-                for (std::size_t i = 0; i < here[k].places.size(); ++i)
-                    here[k].places[i] += (rows[k].places[i] - here[k].places[i]) / here[k].faces;
-            }
-            const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
-                                 (here[1].places.empty() ? 0 : here[1].places.back());
-            if (taken >= edges_[e].length)
-                rows_.erase(edges_.set_of(e)); // drop the rows; the sweep reports the misfit
-        }
-    }
-}
-
-void EdgeCounts::refuse_rows(const RowsHere& there, std::size_t m, FaceId face, std::size_t e) const
-{
-    const AssemblyMember& own = edges_.members()[m];
-    const AssemblyMember& other = edges_.members()[there.member];
-    throw NotSweepable(Message("assembly.layers_differ",
-                               "the boundary layers of {} of {} and of {} of {} end on the same edge, "
-                               "{} of {}, but differ",
-                               entity_in(other, there.face), other.region, entity_in(own, face), own.region,
-                               entity_in(own, edges_[e].edge), own.region)
-                           .remedy("give both faces the same table of 'boundary_layers'"));
-}
-
 std::pair<int, double> EdgeCounts::beside_rows(std::size_t e) const
 {
-    const auto found = rows_.find(edges_.set_of(e));
-    if (found == rows_.end()) return {0, edges_[e].length};
     int taken = 0;
     double left = edges_[e].length;
-    for (const RowsHere& end : found->second) {
-        taken += static_cast<int>(end.places.size());
-        if (!end.places.empty()) left -= end.places.back();
+    const std::array<EdgeRows, 2>* ends = rows(edges_.set_of(e));
+    for (std::size_t k = 0; ends != nullptr && k < 2; ++k) {
+        taken += static_cast<int>((*ends)[k].places.size());
+        if (!(*ends)[k].places.empty()) left -= (*ends)[k].places.back();
     }
     return {taken, left};
 }
@@ -348,7 +278,7 @@ void EdgeCounts::check_rows() const
     for (const auto& [e, ends] : rows_) {
         const int taken = beside_rows(e).first, count = count_.at(class_of(e));
         if (taken < count) continue;
-        const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
+        const EdgeRows& end = ends[ends[0].places.empty() ? 1 : 0];
         const AssemblyMember &own = edges_.members()[end.member], &other = edges_.members()[edges_[e].member];
         throw NotSweepable(Message("assembly.layers_rows",
                                    "{} of {} has {} sides, but {} rows of boundary layers end on it (among "
@@ -435,9 +365,8 @@ double EdgeCounts::wanted(const MemberEdge& edge) const
         sides += (b - a).norm() / size(edge.member, (a + b) / 2);
         if (i > 0) turn += geometry::angle_between(a - line[i - 1], b - a);
     }
-    const std::size_t own = edges_.number(edge.member, edge.edge);
-    if (const auto followed = followed_.find(edges_.set_of(own)); followed != followed_.end())
-        return followed_sides(followed->second, edge);
+    const std::size_t set = edges_.set_of(edges_.number(edge.member, edge.edge));
+    if (const Followed* follows = followed(set)) return followed_sides(*follows, edge);
     const auto lines = sides_.find(edge.member);
     const bool is_side = lines != sides_.end() &&
                          std::ranges::find(lines->second, edge.edge, &EdgeUse::edge) != lines->second.end();
@@ -490,22 +419,17 @@ void EdgeCounts::count()
                     .remedy("use a larger 'size'"));
         count_[of] = std::max(1, static_cast<int>(std::lround(sides)));
     }
-    for (const auto& [of, m] : asked) {
-        count_[of] = layers_asked(m);
+    const auto ask = [&](std::size_t of, int sides) {
+        count_[of] = sides;
         asked_.insert(of);
-    }
-    for (const auto& [m, sides] : sides_) {
-        if (sides.empty() || heights_[m].empty()) continue;
-        const std::size_t of = class_of(edges_.number(m, sides.front().edge));
-        count_[of] = static_cast<int>(heights_[m].size());
-        asked_.insert(of);
-    }
-    for (const auto& [of, sides] : intervals_) {
-        if (kept_of_class_.at(of) == SameEdges::Kept::quads)
-            continue; // the sweep reports a conflict of numbers
-        count_[of] = sides.count;
-        asked_.insert(of);
-    }
+    };
+    for (const auto& [of, m] : asked) ask(of, layers_asked(m));
+    for (const auto& [m, sides] : sides_)
+        if (!sides.empty() && !heights_[m].empty())
+            ask(class_of(edges_.number(m, sides.front().edge)), static_cast<int>(heights_[m].size()));
+    for (const auto& [of, sides] : intervals_)
+        if (kept_of_class_.at(of) != SameEdges::Kept::quads) // the sweep reports a conflict of numbers
+            ask(of, sides.count);
     for (std::size_t e = 0; e < edges_.size(); ++e) {
         if (edges_[e].closed) count_[class_of(e)] = std::max(count_[class_of(e)], 4);
     }
@@ -525,12 +449,9 @@ bool EdgeCounts::settle(bool chains)
 {
     for (int round = 0; round < kMostRounds; ++round) {
         bool changed = chains && match_chains();
-        for (std::size_t m = 0; m < edges_.members().size(); ++m) {
-            for (std::size_t f = 0; f < edges_.model(m).faces.size(); ++f) {
-                if (edges_.members()[m].volume->role[f] != Role::wall)
-                    changed = make_even(m, FaceId(f), round) || changed;
-            }
-        }
+        for (std::size_t m = 0; m < edges_.members().size(); ++m)
+            for (const FaceId face : all_faces(edges_.model(m)))
+                if (!edges_.is_wall(m, face)) changed = make_even(m, face, round) || changed;
         if (!changed) return true;
     }
     return false;
@@ -666,12 +587,11 @@ int EdgeCounts::layers_of(std::size_t m, const std::vector<std::vector<EdgeUse>>
 
 void EdgeCounts::find_frame()
 {
-    for (std::size_t m = 0; m < edges_.members().size(); ++m) {
-        for (std::size_t e = 0; e < edges_.model(m).edges.size(); ++e)
-            frame_.push_back(
-                std::ranges::any_of(edges_.model(m).uses_of_edge(EdgeId(e)), [&](const FaceUse& user) {
-                    return edges_.members()[m].volume->role[user.face.index()] != Role::wall;
-                }));
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+        const std::size_t m = edges_[e].member;
+        frame_.push_back(
+            std::ranges::any_of(edges_.model(m).uses_of_edge(edges_[e].edge),
+                                [&](const FaceUse& user) { return !edges_.is_wall(m, user.face); }));
     }
     for (const auto& [m, sides] : sides_)
         for (const EdgeUse& side : sides) frame_[edges_.number(m, side.edge)] = true;

@@ -3,9 +3,11 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/attempt.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/plan_heights.h>
+#include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/turned_round.h>
 
 #include <algorithm>
@@ -16,6 +18,9 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
+
+/// For each edge, the rows at its start and at its end.
+using RowsOfEdges = std::map<EdgeId, std::array<EdgeRows, 2>>;
 
 /// Set the positions of the rows that end at one end of an edge.
 void add(RowsOfEdges& rows, EdgeId edge, bool at_end, std::vector<double> places, FaceId face,
@@ -59,8 +64,8 @@ void add_rows_of_ends(const OpenVolume& volume, const surface::LayerTables& tabl
     }
 }
 
-} // namespace
-
+/// The rows that end on edges of a member: rows of walls on the edges of its source and target, and rows of
+/// ends on its side lines. Empty if the sweep will refuse the boundary layers.
 RowsOfEdges edge_rows(const AssemblyMember& member)
 {
     if (member.fixed != nullptr || member.options.boundary_layers.empty()) return {};
@@ -74,6 +79,63 @@ RowsOfEdges edge_rows(const AssemblyMember& member)
         return rows;
     });
     return found ? std::move(*found) : RowsOfEdges{}; // the member's own sweep reports the error
+}
+
+/// Whether rows of boundary layers have the same heights.
+bool are_alike(const std::vector<double>& a, const std::vector<double>& b)
+{
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double thick = a[i] - (i > 0 ? a[i - 1] : 0);
+        if (std::abs(a[i] - b[i]) > kVolumeNoted * thick) return false;
+    }
+    return true;
+}
+
+[[noreturn]] void refuse_rows(const SameEdges& edges, const EdgeRows& there, const EdgeRows& here,
+                              std::size_t e)
+{
+    const AssemblyMember& own = edges.members()[here.member];
+    const AssemblyMember& other = edges.members()[there.member];
+    throw NotSweepable(Message("assembly.layers_differ",
+                               "the boundary layers of {} of {} and of {} of {} end on the same edge, "
+                               "{} of {}, but differ",
+                               entity_in(other, there.face), other.region, entity_in(own, here.face),
+                               own.region, entity_in(own, edges[e].edge), own.region)
+                           .remedy("give both faces the same table of 'boundary_layers'"));
+}
+
+} // namespace
+
+RowsOfSets shared_rows(const SameEdges& edges)
+{
+    RowsOfSets all;
+    for (std::size_t m = 0; m < edges.members().size(); ++m) {
+        for (auto& [edge, rows] : edge_rows(edges.members()[m])) {
+            const std::size_t e = edges.number(m, edge);
+            if (edges[e].closed || edges.kept(e) == SameEdges::Kept::quads) continue; // its nodes are given
+            if (!edges.runs_along(e)) std::swap(rows[0], rows[1]);
+            std::array<EdgeRows, 2>& here = all[edges.set_of(e)];
+            for (std::size_t k = 0; k < 2; ++k) {
+                if (rows[k].places.empty()) continue;
+                rows[k].member = m;
+                if (here[k].places.empty()) {
+                    here[k] = std::move(rows[k]);
+                    continue;
+                }
+                if (!are_alike(here[k].heights, rows[k].heights)) refuse_rows(edges, here[k], rows[k], e);
+                // Rows of one table reach the edge at different lengths where walls lean differently.
+                ++here[k].faces;
+                for (std::size_t i = 0; i < here[k].places.size(); ++i)
+                    here[k].places[i] += (rows[k].places[i] - here[k].places[i]) / here[k].faces;
+            }
+            const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
+                                 (here[1].places.empty() ? 0 : here[1].places.back());
+            if (taken >= edges[e].length)
+                all.erase(edges.set_of(e)); // drop the rows; the sweep reports the misfit
+        }
+    }
+    return all;
 }
 
 } // namespace lacuna::sweep

@@ -4,6 +4,7 @@
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/surface/shared/intervals.h>
 #include <lacuna/sweep/detail/assembly_levels.h>
+#include <lacuna/sweep/detail/edge_rows.h>
 #include <lacuna/sweep/detail/same_edges.h>
 
 #include <array>
@@ -16,12 +17,6 @@
 
 /// Interval assignment over an assembly. Internal to this folder.
 namespace lacuna::sweep {
-
-/// Distribute `count` sides over the intervals of a line. Every interval gets one side; then each further
-/// side goes to the interval whose sides are longest.
-/// @param ends  positions of the vertices between the intervals, as shares of the line's length, from 0 to 1.
-/// @return  positions of the nodes, as shares of the line's length.
-std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count);
 
 /// Numbers of sides of all edges of an assembly's members.
 ///
@@ -39,14 +34,6 @@ class EdgeCounts {
 public:
     using Line = std::vector<topology::EdgeUse>;
 
-    /// The rows of boundary layers at one end of an edge, and the member that has these rows.
-    struct RowsHere {
-        std::vector<double> places; ///< running lengths from that end
-        std::size_t member = 0;
-        FaceId face;
-        std::vector<double> heights; ///< of the rows' table
-        int faces = 1; ///< number of members with these rows, of whose positions this is the mean
-    };
     /// An edge whose sides follow facets, and the positions of its vertices that become nodes, as shares of
     /// its length.
     struct Followed {
@@ -86,7 +73,7 @@ public:
     /// - `rows()`: the rows of boundary layers that end at the start and at the end of the set's first edge
     /// - `bias()`: an edge of the set with a requested bias, and that bias
     [[nodiscard]] const Followed* followed(std::size_t set) const { return entry(followed_, set); }
-    [[nodiscard]] const std::array<RowsHere, 2>* rows(std::size_t set) const { return entry(rows_, set); }
+    [[nodiscard]] const std::array<EdgeRows, 2>* rows(std::size_t set) const { return entry(rows_, set); }
     [[nodiscard]] const std::pair<std::size_t, double>* bias(std::size_t set) const
     {
         return entry(bias_, set);
@@ -147,10 +134,6 @@ private:
     /// Find shared edges that run around a member's walls, such as the rim of a band. Such an edge needs as
     /// many sides as the rims of the member's ends, so the nodes of these rims are planned too.
     void find_across();
-    /// Find edges on which rows of boundary layers end. The rows of one member apply to all members that have
-    /// the edge.
-    void find_rows();
-    [[noreturn]] void refuse_rows(const RowsHere& there, std::size_t m, FaceId face, std::size_t e) const;
     /// Number of sides of an edge that belong to boundary-layer rows, and the length of the edge outside
     /// these rows [model length].
     [[nodiscard]] std::pair<int, double> beside_rows(std::size_t e) const;
@@ -197,7 +180,7 @@ private:
     AssemblyLevels levels_;
     std::vector<std::vector<double>> heights_;
     std::map<std::size_t, Followed> followed_;
-    std::map<std::size_t, std::array<RowsHere, 2>> rows_;
+    RowsOfSets rows_;
     std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member that has any
     std::map<std::size_t, SidesOfClass> intervals_; ///< for each class: sides requested by 'intervals'
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/sweep/assembly.h>
+#include <lacuna/sweep/detail/same_edges.h>
 
 #include <array>
 #include <map>
@@ -15,13 +16,16 @@ struct EdgeRows {
     std::vector<double> places; ///< running lengths from that end, increasing [model length]; empty: no rows
     FaceId face;                ///< the face that the rows follow
     std::vector<double> heights{}; ///< of the rows' table [model length]
+    std::size_t member = 0;        ///< the member that has these rows, of several the first
+    int faces = 1;                 ///< number of members with these rows, of whose positions this is the mean
 };
-/// For each edge, the rows at its start and at its end.
-using RowsOfEdges = std::map<EdgeId, std::array<EdgeRows, 2>>;
 
-/// The rows that end on edges of a member: rows of walls on the edges of its source and target, and rows of
-/// ends on its side lines. Empty if the sweep will refuse the boundary layers.
+/// For each set of same edges on which rows end: the rows at the start and at the end of its first edge.
+using RowsOfSets = std::map<std::size_t, std::array<EdgeRows, 2>>;
+
+/// The rows of all members. The rows of one member apply to all members that have the edge.
+/// @throw NotSweepable "assembly.layers_differ"  different tables end on one edge
 /// @note  O(edges + facets).
-RowsOfEdges edge_rows(const AssemblyMember& member);
+RowsOfSets shared_rows(const SameEdges& edges);
 
 } // namespace lacuna::sweep
