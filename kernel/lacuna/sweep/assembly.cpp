@@ -20,7 +20,6 @@
 #include <lacuna/sweep/shared/shared_middles.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/give_mesh.h>
-#include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <array>
@@ -93,7 +92,7 @@ public:
         number_nodes(result_);
         sweep::pair_nodes(images(), result_, context_);
         check_no_hanging_nodes(result_, members_);
-        name_groups();
+        name_groups(result_, members_);
         log_defaults();
         return std::move(result_);
     }
@@ -473,43 +472,6 @@ private:
                         "middle nodes of {} on shared faces differ from those of its neighbours",
                         members_[m].region)
                     .remedy("use order = 1"));
-    }
-
-    /// Name the groups of cells, and prefix groups of roles with the member's name unless it is the only
-    /// volume. Faces between two pieces of one volume are in no group.
-    void name_groups()
-    {
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            const AssemblyMember& member = members_[m];
-            const std::string& name = member.whole.empty() ? member.region : member.whole;
-            mesh::HexMesh& mesh = result_.parts[m].mesh;
-            mesh.volume_groups = {name};
-            if (name != "volume") mesh.volume_groups.emplace_back("volume");
-            if (member.piece_of != nullptr) take_roles(*member.piece_of, mesh.patches);
-            if (member.alone) continue;
-            for (mesh::SkinPatch& patch : mesh.patches) patch.groups = groups_in_assembly(name, patch.groups);
-        }
-        for (const SharedFace& face : result_.shared) {
-            const std::string& whole = members_[face.a].whole;
-            if (whole.empty() || whole != members_[face.b].whole) continue;
-            for (const auto& [p, id] : {std::pair(face.a, face.face_a), std::pair(face.b, face.face_b)})
-                for (std::size_t patch = 0; patch < result_.parts[p].faces.size(); ++patch)
-                    if (result_.parts[p].faces[patch] == id)
-                        result_.parts[p].mesh.patches[patch].groups.clear();
-        }
-    }
-
-    /// Give the patches of a piece the groups that the same faces have in the whole volume.
-    static void take_roles(const OpenVolume& whole, std::vector<mesh::SkinPatch>& patches)
-    {
-        std::map<int, std::vector<std::string>> of_tag;
-        std::vector<std::vector<std::string>> groups = skin_groups(whole);
-        for (std::size_t f = 0; f < groups.size(); ++f)
-            if (whole.model.faces[f].origin == Origin::given)
-                of_tag.try_emplace(whole.model.faces[f].tag, std::move(groups[f]));
-        for (mesh::SkinPatch& patch : patches)
-            if (const auto found = of_tag.find(patch.face); patch.face != 0 && found != of_tag.end())
-                patch.groups = found->second;
     }
 
     /// The quads of a part on a face.

@@ -6,9 +6,12 @@
 #include <lacuna/sweep/detail/place_order.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/shared/side_points.h>
+#include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <string>
 #include <unordered_set>
 #include <utility>
 
@@ -61,6 +64,19 @@ void add_middles(const mesh::HexMesh& mesh, std::size_t part, std::vector<PartNo
             nodes.push_back({part, n});
         }
     }
+}
+
+/// Give the patches of a piece the groups that the same faces have in the whole volume.
+void take_roles(const OpenVolume& whole, std::vector<mesh::SkinPatch>& patches)
+{
+    std::map<int, std::vector<std::string>> of_tag;
+    std::vector<std::vector<std::string>> groups = skin_groups(whole);
+    for (std::size_t f = 0; f < groups.size(); ++f)
+        if (whole.model.faces[f].origin == Origin::given)
+            of_tag.try_emplace(whole.model.faces[f].tag, std::move(groups[f]));
+    for (mesh::SkinPatch& patch : patches)
+        if (const auto found = of_tag.find(patch.face); patch.face != 0 && found != of_tag.end())
+            patch.groups = found->second;
 }
 
 } // namespace
@@ -161,6 +177,28 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
                     region, place_in_short(p), other, miss->message.entities(), found(miss->width))
                 .remedy("{}", miss->message.remedy())
                 .attempt(miss->message));
+    }
+}
+
+void name_groups(SweptAssembly& assembly, std::span<const AssemblyMember> members)
+{
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const AssemblyMember& member = members[m];
+        const std::string& name = member.whole.empty() ? member.region : member.whole;
+        mesh::HexMesh& mesh = assembly.parts[m].mesh;
+        mesh.volume_groups = {name};
+        if (name != "volume") mesh.volume_groups.emplace_back("volume");
+        if (member.piece_of != nullptr) take_roles(*member.piece_of, mesh.patches);
+        if (member.alone) continue;
+        for (mesh::SkinPatch& patch : mesh.patches) patch.groups = groups_in_assembly(name, patch.groups);
+    }
+    for (const SharedFace& face : assembly.shared) {
+        const std::string& whole = members[face.a].whole;
+        if (whole.empty() || whole != members[face.b].whole) continue;
+        for (const auto& [p, id] : {std::pair(face.a, face.face_a), std::pair(face.b, face.face_b)})
+            for (std::size_t patch = 0; patch < assembly.parts[p].faces.size(); ++patch)
+                if (assembly.parts[p].faces[patch] == id)
+                    assembly.parts[p].mesh.patches[patch].groups.clear();
     }
 }
 
