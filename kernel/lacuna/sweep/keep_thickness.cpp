@@ -110,15 +110,6 @@ private:
         }
     }
 
-    static bool is_vertex(const surface::Chain& chain, double at)
-    {
-        const double slack = kSamePlace * chain.length();
-        const double nearest = chain.wrapped(at);
-        for (std::size_t u = 0; u <= chain.uses().size(); ++u)
-            if (std::abs(chain.start(u) - nearest) <= slack) return true;
-        return false;
-    }
-
     /// Find the columns and rows that must not move: those at corners, on edges between walls, and on given
     /// meshes.
     void find_still()
@@ -143,10 +134,7 @@ private:
                     if (left != right || has_mesh(left)) still[i] = 1;
                     if (has_mesh(left) || has_mesh(right)) on_given_wall_.insert(parts_.rim_node(b, i));
                     if (k > 0 && parts_.wall_at(b, k - 1, i) != right) still_layers_.insert(k);
-                    if (has_mesh(right)) {
-                        still_layers_.insert(k);
-                        still_layers_.insert(k + 1);
-                    }
+                    if (has_mesh(right)) still_layers_.insert({k, k + 1});
                 }
             }
         }
@@ -429,9 +417,8 @@ private:
         for (std::size_t b = 0; b < parts_.links.size(); ++b) {
             const std::size_t n = parts_.size_of(b);
             std::vector<std::size_t> corners;
-            for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t i = 0; i < n; ++i)
                 if (still_column_[b][i] != 0) corners.push_back(i);
-            }
             if (!corners.empty()) corners.push_back(corners.front() + n);
             for (std::size_t c = 0; c + 1 < corners.size(); ++c) slide_between(b, corners[c], corners[c + 1]);
         }
@@ -463,47 +450,13 @@ private:
         }
     }
 
-    /// Required heights at one end of a line of nodes, given by a table.
-    struct HeightsOver {
-        int table = -1; ///< index of the table; -1: none
-        Vec3 normal = Vec3::Zero();
-    };
-    using Places = std::map<std::size_t, double>;
-
-    /// Positions on a line of nodes, in units of its sides, of three kinds of nodes: both ends, the nodes in
-    /// `still`, and nodes with required heights over either end. Empty if there is not enough room; the final
-    /// check of the thickness then reports the misfit.
-    [[nodiscard]] std::optional<Places> places_at(const std::vector<Vec3>& line,
-                                                  const std::array<HeightsOver, 2>& ends,
-                                                  const std::set<std::size_t>& still = {}) const
-    {
-        const std::size_t sides = line.size() - 1;
-        Places place{{0, 0.0}, {sides, static_cast<double>(sides)}};
-        for (const std::size_t node : still) place[node] = static_cast<double>(node);
-        for (const std::size_t end : {0, 1}) {
-            if (ends[end].table < 0) continue;
-            std::vector<Vec3> walk = line;
-            if (end == 1) std::ranges::reverse(walk);
-            const std::vector<double>& heights = heights_of(ends[end].table);
-            for (std::size_t j = 0; j < heights.size() && j + 1 < sides; ++j) {
-                const std::optional<double> at = place_at(walk, ends[end].normal, heights[j]);
-                if (!at) return std::nullopt;
-                const std::size_t node = end == 0 ? j + 1 : sides - 1 - j;
-                if (!still.contains(node)) place[node] = end == 0 ? *at : static_cast<double>(sides) - *at;
-            }
-        }
-        for (auto p = place.begin(); std::next(p) != place.end(); ++p) {
-            if (!(p->second < std::next(p)->second)) return std::nullopt;
-        }
-        return place;
-    }
-
     /// Positions on a line for the nodes of rows that end on it, over the columns at both ends of the line.
-    [[nodiscard]] std::optional<Places> row_places(const std::vector<Vec3>& line, std::size_t layer,
-                                                   const RowColumn* low, const RowColumn* high) const
+    [[nodiscard]] std::optional<LinePlaces> row_places(const std::vector<Vec3>& line, std::size_t layer,
+                                                       const RowColumn* low, const RowColumn* high) const
     {
         const auto over = [&](const RowColumn* column) {
-            return column == nullptr ? HeightsOver{} : HeightsOver{column->table, normal_of(*column, layer)};
+            return column == nullptr ? HeightsOver{}
+                                     : HeightsOver{&heights_of(column->table), normal_of(*column, layer)};
         };
         return places_at(line, {over(low), over(high)});
     }
@@ -570,13 +523,16 @@ private:
     void move_layers()
     {
         if (end_table_[0] < 0 && end_table_[1] < 0) return;
+        std::array<const std::vector<double>*, 2> heights{};
+        for (const std::size_t end : {0, 1})
+            if (end_table_[end] >= 0) heights[end] = &heights_of(end_table_[end]);
         std::vector<Vec3> before = nodes_;
         for (std::size_t node = 0; node < count_; ++node) {
             std::vector<Vec3> line;
             for (std::size_t k = 0; k <= layers_; ++k) line.push_back(before[k * count_ + node]);
             const auto place = places_at(line,
-                                         {HeightsOver{end_table_[0], layer_normal(node, 0)},
-                                          HeightsOver{end_table_[1], -layer_normal(node, layers_)}},
+                                         {HeightsOver{heights[0], layer_normal(node, 0)},
+                                          HeightsOver{heights[1], -layer_normal(node, layers_)}},
                                          still_layers_);
             if (!place) continue;
             for (auto p = place->begin(), q = std::next(p); q != place->end(); p = q++) {

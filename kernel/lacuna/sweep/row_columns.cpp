@@ -3,12 +3,14 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/limits.h>
 #include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <unordered_map>
 
 namespace lacuna::sweep {
@@ -113,11 +115,43 @@ std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal
     return std::nullopt;
 }
 
+std::optional<LinePlaces> places_at(const std::vector<Vec3>& line, const std::array<HeightsOver, 2>& ends,
+                                    const std::set<std::size_t>& still)
+{
+    const std::size_t sides = line.size() - 1;
+    LinePlaces place{{0, 0.0}, {sides, static_cast<double>(sides)}};
+    for (const std::size_t node : still) place[node] = static_cast<double>(node);
+    for (const std::size_t end : {0, 1}) {
+        if (ends[end].heights == nullptr) continue;
+        std::vector<Vec3> walk = line;
+        if (end == 1) std::ranges::reverse(walk);
+        const std::vector<double>& heights = *ends[end].heights;
+        for (std::size_t j = 0; j < heights.size() && j + 1 < sides; ++j) {
+            const std::optional<double> at = place_at(walk, ends[end].normal, heights[j]);
+            if (!at) return std::nullopt;
+            const std::size_t node = end == 0 ? j + 1 : sides - 1 - j;
+            if (!still.contains(node)) place[node] = end == 0 ? *at : static_cast<double>(sides) - *at;
+        }
+    }
+    for (auto p = place.begin(); std::next(p) != place.end(); ++p)
+        if (!(p->second < std::next(p)->second)) return std::nullopt;
+    return place;
+}
+
 Vec3 point_at(const std::vector<Vec3>& line, double place)
 {
     const auto side = std::min(static_cast<std::size_t>(place), line.size() - 2);
     const double share = place - static_cast<double>(side);
     return (1 - share) * line[side] + share * line[side + 1];
+}
+
+bool is_vertex(const surface::Chain& chain, double at)
+{
+    const double slack = kSamePlace * chain.length();
+    const double nearest = chain.wrapped(at);
+    for (std::size_t u = 0; u <= chain.uses().size(); ++u)
+        if (std::abs(chain.start(u) - nearest) <= slack) return true;
+    return false;
 }
 
 Vec3 nearest_on(const Model& model, const surface::Chain& chain, const Vec3& p)
@@ -155,7 +189,7 @@ Vec3 nearest_on(const Model& model, const surface::Chain& chain, const Vec3& p)
 }
 
 std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>& line,
-                                                         const std::map<std::size_t, double>& place)
+                                                         const LinePlaces& place)
 {
     const std::size_t sides = line.size() - 1;
     const std::vector<double> lengths = geometry::arc_lengths(line);

@@ -6,6 +6,7 @@
 #include <lacuna/surface/shared/walls.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -77,8 +78,26 @@ std::vector<RowColumn> row_columns(const SweptParts& parts, const surface::Layer
 /// does not reach it.
 std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal, double height);
 
+/// Positions of nodes on a line, by their index.
+using LinePlaces = std::map<std::size_t, double>;
+
+/// Required heights at one end of a line of nodes; null: none.
+struct HeightsOver {
+    const std::vector<double>* heights = nullptr;
+    Vec3 normal = Vec3::Zero();
+};
+
+/// Positions on a line of three kinds of nodes: both ends, the nodes in `still`, and nodes with required
+/// heights over either end. Empty if there is not enough room; the final check of the thickness then reports
+/// the misfit.
+std::optional<LinePlaces> places_at(const std::vector<Vec3>& line, const std::array<HeightsOver, 2>& ends,
+                                    const std::set<std::size_t>& still = {});
+
 /// The point at a position.
 Vec3 point_at(const std::vector<Vec3>& line, double place);
+
+/// Whether a vertex of a chain lies at a running length.
+bool is_vertex(const surface::Chain& chain, double at);
 
 /// The point of a chain closest to `p`. It is found on the chain's polyline and then improved by iteration on
 /// the exact curve.
@@ -88,6 +107,6 @@ Vec3 nearest_on(const topology::Model& model, const surface::Chain& chain, const
 /// divide the length between the nearest given ones in their original proportion.
 /// @pre  the positions of both ends are given.
 std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>& line,
-                                                         const std::map<std::size_t, double>& place);
+                                                         const LinePlaces& place);
 
 } // namespace lacuna::sweep
