@@ -13,65 +13,21 @@
 #include <lacuna/fill/detail/crossing_faces.h>
 #include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/members.h>
-#include <lacuna/io/shared/deck_middles.h>
 #include <lacuna/surface/shared/default_size.h>
 #include <lacuna/sweep/shared/turn_at_axis.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/joined_faces.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <functional>
-#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
 
 namespace lacuna::fill {
-
-namespace {
-
-// --- middle nodes of decks --------------------------------------------------------------------------------
-
-/// The decks that the faces of a volume came from. Their ownership is shared, because a sweep that creates
-/// its layers later may outlive its volume.
-struct GivenMiddles {
-    std::vector<std::shared_ptr<const io::Deck>> decks;
-    double tolerance = 0, scale = 1;
-
-    /// The nodes that `ask(deck)` finds; the first deck with a node at a place supplies it.
-    template <class Ask>
-    std::vector<Vec3> find(std::size_t count, const Ask& ask) const
-    {
-        std::vector<Vec3> found(count, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
-        for (const auto& deck : decks) {
-            const std::vector<Vec3> own = ask(*deck);
-            for (std::size_t i = 0; i < found.size(); ++i)
-                if (!found[i].allFinite()) found[i] = own[i];
-        }
-        return found;
-    }
-};
-
-} // namespace
-
-void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options)
-{
-    if (volume.decks.empty()) return;
-    const GivenMiddles given{volume.decks, kSamePlace * volume.volume.model.diagonal, volume.scale};
-    options.given = [given](std::span<const Vec3> from, std::span<const Vec3> to) {
-        return given.find(from.size(), [&](const io::Deck& deck) {
-            return io::middles_between(deck, from, to, given.tolerance, given.scale);
-        });
-    };
-    options.given_centres = [given](std::span<const std::array<Vec3, 4>> quads) {
-        return given.find(quads.size(), [&](const io::Deck& deck) {
-            return io::centres_of(deck, quads, given.tolerance, given.scale);
-        });
-    };
-}
 
 namespace {
 
@@ -134,8 +90,7 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
     options.crew = nullptr;
     const closure::SweptSource& along = *volume.along;
     const topology::Model& source = along.source.model;
-    Vec3 normal = Vec3::Zero();
-    for (const FaceId face : topology::all_faces(source)) normal += topology::face_area_vector(source, face);
+    const Vec3 normal = topology::area_vector_of(source, topology::all_faces(source));
     if (!(normal.norm() > 0))
         throw InvalidInput(Message("closure.along_direction", "the source has no mean normal")
                                .remedy("use a source in a plane through its axis"));
