@@ -2,7 +2,6 @@
 #include <lacuna/surface/shared/wall_breaks.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/wall_net.h>
@@ -65,11 +64,8 @@ int layers_between_rings(const Model& model, const LinkingSurface& link)
 
 class Breaker {
 public:
-    Breaker(const OpenVolume& volume, const SizeField& size, LinkingSurface& link, bool void_edges)
-        : size_(size),
-          link_(link),
-          map_(map_of(volume, link, void_edges)),
-          net_(wall_net(volume.model, link, *map_))
+    Breaker(const OpenVolume& volume, const SizeField& size, LinkingSurface& link)
+        : size_(size), link_(link), map_(map_of(volume, link)), net_(wall_net(volume.model, link, *map_))
     {
     }
 
@@ -184,15 +180,7 @@ WallBreaks set_wall_breaks(const OpenVolume& volume, const SizeField& size, std:
     int layers = 1;
     for (LinkingSurface& link : links) {
         layers = std::max(layers, layers_between_rings(volume.model, link));
-        if (!has_net(volume.model, link)) continue;
-        const bool has_given = std::ranges::any_of(link.walls, [&](FaceId wall) {
-            return volume.model[wall].keeps_nodes && has_quads_all_over(volume.model[wall]);
-        });
-        auto followed = attempt<NotSweepable>([&] { return Breaker(volume, size, link, true).run(); });
-        // If given nodes determine the columns, columns cannot follow edges between void faces. These edges
-        // are then ignored.
-        if (!followed && !(has_given && followed.why->code() == "surface.wall_edge")) followed.raise();
-        layers = std::max(layers, followed ? *followed : Breaker(volume, size, link, false).run());
+        if (has_net(volume.model, link)) layers = std::max(layers, Breaker(volume, size, link).run());
     }
     return {std::move(links), layers};
 }
