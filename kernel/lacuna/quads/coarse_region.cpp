@@ -22,16 +22,15 @@ void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
 }
 
 /// Add the points of one run of a loop, without its last node.
-void add_run(CoarseRegion& made, const PlanarRegion& region, const std::vector<Index>& nodes,
-             std::size_t whole)
+void add_run(CoarseRegion& made, const PlanarRegion& region, const std::vector<Index>& nodes)
 {
     const std::size_t sides = nodes.size() - 1;
-    if (whole == 0) {
+    if (sides % 2 == 0) {
         for (std::size_t i = 0; i < sides; i += 2)
             add_point(made, region.points[index(nodes[i])], nodes[i], nodes[i + 1]);
         return;
     }
-    const WholeRun& run = made.runs.emplace_back(WholeRun{nodes, static_cast<Index>(made.own.size()), whole});
+    const WholeRun& run = made.runs.emplace_back(WholeRun{nodes, static_cast<Index>(made.own.size())});
     for (std::size_t i = 0; i < run.points(); ++i) {
         const double place = static_cast<double>(i * sides) / static_cast<double>(run.points());
         add_point(made, point_along(region.points, nodes, 0, place), -1, -1);
@@ -45,22 +44,13 @@ std::size_t odd_runs(const std::vector<std::size_t>& corners)
     return count;
 }
 
-std::size_t longest_run(const std::vector<std::size_t>& corners)
-{
-    std::size_t longest = 0;
-    for (std::size_t c = 0; c + 1 < corners.size(); ++c)
-        if (corners[c + 1] - corners[c] > corners[longest + 1] - corners[longest]) longest = c;
-    return longest;
-}
-
-/// @param of_longest  number of whole sides of run `longest`; every other odd run has one whole side.
 void add_runs(CoarseRegion& made, const PlanarRegion& region, const std::vector<Index>& loop,
-              const std::vector<std::size_t>& corners, std::size_t longest, std::size_t of_longest)
+              const std::vector<std::size_t>& corners)
 {
     for (std::size_t c = 0; c + 1 < corners.size(); ++c) {
         std::vector<Index> nodes;
         for (std::size_t i = corners[c]; i <= corners[c + 1]; ++i) nodes.push_back(loop[i % loop.size()]);
-        add_run(made, region, nodes, c == longest ? of_longest : (corners[c + 1] - corners[c]) % 2);
+        add_run(made, region, nodes);
     }
 }
 
@@ -94,13 +84,11 @@ struct Pairing {
 
 /// Find the pairing with the fewest quads.
 /// @param between  the shortest row between two runs, at first · runs + second
-/// @param left     number of whole sides of each run that have no row yet
-void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pairing& now, Pairing& best)
+/// @param left     for each run, 1 if its whole side has no row yet, otherwise 0
+void pair_up(const std::vector<Row>& between, std::vector<char>& left, Pairing& now, Pairing& best)
 {
     const std::size_t runs = left.size();
-    // Runs are paired in reverse order. Runs of the outer loop, which may have many whole sides, then come
-    // last.
-    std::size_t r = runs;
+    std::size_t r = runs; // runs are paired in reverse order
     while (r > 0 && left[r - 1] == 0) --r;
     if (r == 0) {
         if (now.quads < best.quads) best = now;
@@ -122,12 +110,12 @@ void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pa
 }
 
 /// Place the points of a run on nodes of the region.
-/// @param whole  positions of the points that are followed by a whole side
-void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::size_t>& whole)
+/// @param whole  position of the point that is followed by the whole side
+void settle_run(CoarseRegion& made, const WholeRun& run, std::size_t whole)
 {
     std::size_t place = 0;
     for (std::size_t i = 0; i < run.points(); ++i) {
-        const bool is_whole = std::ranges::find(whole, i) != whole.end();
+        const bool is_whole = i == whole;
         made.own[index(run.first) + i] = run.nodes[place];
         made.next[index(run.first) + i] = is_whole ? -1 : run.nodes[place + 1];
         place += is_whole ? 1 : 2;
@@ -152,7 +140,7 @@ std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<I
     return corners;
 }
 
-std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides sides)
+std::optional<CoarseRegion> coarse_region(const PlanarRegion& region)
 {
     CoarseRegion made;
     std::vector<std::vector<std::size_t>> corners;
@@ -162,13 +150,8 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         const std::vector<Index>& loop = region.loops[l];
         made.region.loops.emplace_back();
-        const std::size_t own = odd_runs(corners[l]);
-        const bool takes_all = l == 0 && sides == WholeSides::of_outline && odd > 0;
-        if (own > 0 || takes_all) {
-            const std::size_t longest = longest_run(corners[l]);
-            const std::size_t own_of_longest = (corners[l][longest + 1] - corners[l][longest]) % 2;
-            add_runs(made, region, loop, corners[l], longest,
-                     takes_all ? odd - own_of_longest : own_of_longest);
+        if (odd_runs(corners[l]) > 0) {
+            add_runs(made, region, loop, corners[l]);
             continue;
         }
         // All runs have even numbers of sides, so the nodes that must stay are all at even or all at odd
@@ -186,12 +169,12 @@ std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const Pl
     std::vector<char> whole(4 * coarse.quads.size(), 0);
     const std::size_t runs = made.runs.size();
     if (runs == 0) return whole;
-    std::vector<std::size_t> run_of(made.own.size(), runs), left;
+    std::vector<std::size_t> run_of(made.own.size(), runs);
+    std::vector<char> left(runs, 1);
     for (std::size_t r = 0; r < runs; ++r) {
         const WholeRun& run = made.runs[r];
         const std::size_t first = index(run.first);
         for (std::size_t p = first; p < first + run.points(); ++p) run_of[p] = r;
-        left.push_back(run.whole);
     }
     const std::vector<Index> opposite = mesh::opposite_sides(coarse.quads,
                                                              static_cast<Index>(coarse.points.size()));
@@ -216,16 +199,16 @@ std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const Pl
     Pairing best, now{{}, 0};
     pair_up(between, left, now, best);
     if (best.rows.empty()) return std::nullopt;
-    std::vector<std::vector<std::size_t>> places(runs);
+    std::vector<std::size_t> place(runs);
     for (const Row& row : best.rows) {
         follow_row(coarse.quads, opposite, row.from,
                    [&](Index a, Index b) { whole[index(a)] = whole[index(b)] = 1; });
         for (const Index side : {row.from, row.to}) {
             const std::size_t r = run_of[point_before(side)];
-            places[r].push_back(point_before(side) - index(made.runs[r].first));
+            place[r] = point_before(side) - index(made.runs[r].first);
         }
     }
-    for (std::size_t r = 0; r < runs; ++r) settle_run(made, made.runs[r], places[r]);
+    for (std::size_t r = 0; r < runs; ++r) settle_run(made, made.runs[r], place[r]);
     return whole;
 }
 

@@ -4,7 +4,6 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/coarse_region.h>
 #include <lacuna/quads/detail/pave_attempt.h>
 #include <lacuna/quads/detail/pave_choice.h>
@@ -45,77 +44,56 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
     return sides;
 }
 
-/// Pave a coarse region with one set of weights. If the result is poor, use `pave()`, which tries several.
-/// @throw NotSweepable "surface.pave"  the quads are flat, as between sides that nearly touch. The caller
-///         then paves the region at full size, where sides are shorter and quads may be less flat.
+/// Pave a coarse region with one set of weights.
+/// @throw NotSweepable "surface.pave"  some quad is poor, as between sides that nearly touch. The caller then
+///         paves the region at full size, where sides are shorter and quads may be better.
 PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     check(region);
     const AttemptSetting setting{region, sizes_with_boundary(region).usual, flat_below(region)};
     Attempt attempt = begin_attempt(setting, RowStyle::by_shape, {}, context);
     finish_attempt(attempt, setting, true, context);
-    if (attempt.worst > kPoorQuad && find_fault(attempt.mesh, region).empty()) {
-        report = std::move(attempt.report);
-        return std::move(attempt.mesh);
-    }
-    if (attempt.worst <= setting.flat)
-        throw NotSweepable("surface.pave", "quads fold near {}", position_text(attempt.where));
-    // `fill_patterns()` is not tried: it distorts many quads to avoid irregular nodes, but in a mesh of many
-    // quads irregular nodes do little harm.
-    auto [mesh, other] = pave(region, {.grids = false}, context);
-    report = std::move(other);
-    return std::move(mesh);
+    if (attempt.worst <= kPoorQuad || !find_fault(attempt.mesh, region).empty())
+        throw NotSweepable("surface.pave", "quads are poor near {}", position_text(attempt.where));
+    report = std::move(attempt.report);
+    return std::move(attempt.mesh);
 }
 
 /// Fill a coarse region with quads and few triangles. If it has many quads, a still coarser region is filled
 /// and its cells are cut in four.
+/// @throw NotSweepable  some quad is poor, or rows cannot be closed
 PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
+    if (!sides) {
+        const auto once = [&](const PlanarRegion& even, const RunContext& its_context) {
+            return pave_once(even, report, its_context);
+        };
+        std::vector<RegionSide> longest = sides_by_length(region);
+        longest.resize(longest.size() % 2);
+        return fill_divided_region(region, longest, once, context);
+    }
     const auto in_four = [&](const PlanarRegion& divided, const RunContext& its_context) {
         std::optional<Paved> made = pave_in_four(divided, sizes_with_boundary(divided).ring, its_context);
         if (!made) throw NotSweepable("surface.pave", "internal error: the coarser region has no quads");
         report = std::move(made->report);
         return std::move(made->mesh);
     };
-    const auto divided = [&](std::span<const RegionSide> some,
-                             const PlanarQuadMesher& mesher) -> std::optional<PlanarQuads> {
-        auto filled = attempt<NotSweepable>(
-            [&] { return fill_divided_region(region, some, mesher, context); });
-        if (!filled) return std::nullopt;
-        const auto triangles = std::ranges::find_if(filled->quads, mesh::is_triangle); // the last cell
-        const std::span whole(filled->quads.begin(), triangles);
-        if (least_scaled_jacobian(filled->points, whole) <= kPoorQuad) return std::nullopt;
-        return std::move(filled.value);
-    };
-    if (sides) {
-        if (auto mesh = divided(*sides, in_four)) return std::move(*mesh);
-    }
-    const auto once = [&](const PlanarRegion& even, const RunContext& its_context) {
-        return pave_once(even, report, its_context);
-    };
-    const std::vector<RegionSide> by_length = sides_by_length(region);
-    if (by_length.size() % 2 != 0) {
-        if (auto mesh = divided(std::span(by_length).first(1), once)) return std::move(*mesh);
-    }
-    return fill_odd_region(region, once, context);
+    return fill_divided_region(region, *sides, in_four, context);
 }
 
 /// The cells of a coarse region, cut in four and not smoothed. Empty if there is no coarse region, or if its
 /// whole sides cannot be joined by rows.
 std::optional<Paved> fill_and_cut(const PlanarRegion& region, const RunContext& context)
 {
+    std::optional<CoarseRegion> coarse = coarse_region(region);
+    if (!coarse) return std::nullopt;
     Paved made;
-    for (const WholeSides sides : {WholeSides::of_odd_runs, WholeSides::of_outline}) {
-        std::optional<CoarseRegion> coarse = coarse_region(region, sides);
-        if (!coarse) return std::nullopt;
-        const PlanarQuads filled = fill_coarse(coarse->region, made.report, context);
-        const std::optional<std::vector<char>> whole = choose_whole_sides(*coarse, filled);
-        if (!whole) continue;
-        made.mesh = cut_in_four(region, *coarse, filled, *whole);
-        return made;
-    }
-    return std::nullopt;
+    const PlanarQuads filled = fill_coarse(coarse->region, made.report, context);
+    const std::optional<std::vector<char>> whole = choose_whole_sides(*coarse, filled);
+    if (!whole) return std::nullopt;
+    made.mesh = cut_in_four(region, *coarse, filled, *whole);
+    return made;
 }
 
 } // namespace

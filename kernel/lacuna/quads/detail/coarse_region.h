@@ -17,17 +17,16 @@ inline constexpr std::size_t kMostOddRuns = 8;
 /// Whether a loop turns so sharply at position `place` that the node there must stay in a coarse region.
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place);
 
-/// A run with whole sides. Run: the part of a loop between two nodes that stay (`stays()`), or a whole loop
+/// A run with a whole side. Run: the part of a loop between two nodes that stay (`stays()`), or a whole loop
 /// without such nodes. Whole side: a side that is also a side of the coarse region, instead of being merged
-/// with its neighbour. A run has an odd number of whole sides if and only if its number of sides is odd.
+/// with its neighbour. Runs with an odd number of sides have one, others none.
 struct WholeRun {
     std::vector<Index> nodes; ///< nodes of the region, including the last one
     /// Index of the run's first point in the coarse region; its points are numbered consecutively.
     Index first;
-    std::size_t whole; ///< number of sides that are kept whole, > 0
 
     /// Number of the run's points in the coarse region: each pair of the other sides becomes one side.
-    [[nodiscard]] std::size_t points() const { return (nodes.size() - 1 + whole) / 2; }
+    [[nodiscard]] std::size_t points() const { return nodes.size() / 2; }
 };
 
 /// Positions at which the runs of a loop begin, in ascending order. The last entry is the end of the last
@@ -35,25 +34,18 @@ struct WholeRun {
 std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop);
 
 /// A region with every other node of the loops of a fine region. `choose_whole_sides()` selects the whole
-/// sides of runs that have any; until then, the points of such a run are evenly spaced along the run.
+/// sides of runs that have one; until then, the points of such a run are evenly spaced along the run.
 struct CoarseRegion {
     PlanarRegion region;    ///< region with twice the size; its number of boundary sides may be odd
     std::vector<Index> own; ///< for each point of `region`, its number in the fine region
     /// For each point, the node of the fine region that was left out after it; -1: the side is whole.
     std::vector<Index> next;
-    std::vector<WholeRun> runs; ///< runs with whole sides; the total number of whole sides is even
-};
-
-/// Which runs have whole sides.
-enum class WholeSides {
-    of_odd_runs, ///< only runs with an odd number of sides (odd runs); each has one whole side
-    of_outline,  ///< also the longest run of the outer loop: it has one whole side for each other odd run
+    std::vector<WholeRun> runs; ///< runs with a whole side; their number is even
 };
 
 /// Make a coarse region by leaving out every other boundary node.
-/// @return empty if the region has an odd number of boundary sides, or too many odd runs.
-std::optional<CoarseRegion> coarse_region(const PlanarRegion& region,
-                                          WholeSides sides = WholeSides::of_odd_runs);
+/// @return empty if the region has an odd number of boundary sides, or too many runs with an odd number.
+std::optional<CoarseRegion> coarse_region(const PlanarRegion& region);
 
 /// Select the whole sides of the runs of `made`. A row of quads leads from each whole side to a whole side of
 /// another run; the sides are chosen so that the total length of these rows is minimal.
