@@ -137,8 +137,8 @@ void MiddlePlacer::bend_columns(const RunContext& context)
             left = std::max(left, rest.norm() / length);
         }
     }
-    columns_bend_ = most >= kSamePlace;
-    if (!columns_bend_ || left < kVisible) {
+    most_bend_ = most;
+    if (most < kSamePlace || left < kVisible) {
         beyond_ = {};
         return;
     }
@@ -213,9 +213,12 @@ void MiddlePlacer::place_columns(int layer, const Corners& corners, Vec3* out) c
             continue;
         }
         out[n] = (corners.level(layer)[n] + corners.level(layer + 1)[n]) / 2;
-        if (!columns_bend_) continue;
+        if (most_bend_ < kSamePlace) continue;
         for (int i = 0; i < count; ++i) column[index(i)] = corners.level(first + i)[n];
-        out[n] += column_bend(std::span(column).first(index(count)), low);
+        // Inside, nodes that were moved to improve cells make zigzag columns, which no side follows.
+        const Vec3 bend = column_bend(std::span(column).first(index(count)), low);
+        const double limit = most_bend_ * (column[low + 1] - column[low]).norm();
+        out[n] += bend * std::min(1.0, limit / std::max(bend.norm(), limit));
     }
 }
 

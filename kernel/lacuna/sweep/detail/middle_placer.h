@@ -50,7 +50,7 @@ private:
     /// the difference is zero.
     std::vector<Vec3> first_, last_;
     std::vector<double> share_;
-    bool columns_bend_ = false;
+    double most_bend_ = 0; ///< largest bend of a column of the rim, as a share of its side
     std::optional<HarmonicSpread> spread_; ///< spreads `beyond_` over the inside
     /// For each layer, at the rim nodes: the bends of the walls that are not represented by cubics.
     std::vector<Vec3> beyond_;
