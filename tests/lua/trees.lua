@@ -106,5 +106,46 @@ BooleanUnion(3) = {Volume{1}; Delete;}{Volume{2}; Delete;};
   end
   ::next::
 end
+
+-- Oblique branches, and branches that leave to sides oblique to each other: where cuts end at mouths, cells
+-- are improved together with those of the neighbouring arms, and no node leaves the tubes. At order 2, sides
+-- inside do not follow columns in zigzag. Order and size, and for each branch: its place on the axis, angle
+-- to it, angle about it, radius.
+local families = {
+  { 1, 0.27, { 0, 45, 0, 0.4 } }, { 1, 0.27, { 0, 60, 0, 0.7 } },
+  { 1, 0.27, { -2.7, 90, 0, 0.4 }, { 2.7, 90, 160, 0.4 } }, { 1, 0.27, { 0, 45, 0, 0.7 } },
+  { 2, 0.15, { 0, 90, 0, 0.5 } }, { 1, 0.27, { -2.7, 90, 0, 0.4 }, { 2.7, 90, 110, 0.4 } },
+  { 2, 0.19, { 0, 90, 0, 0.625 } },
+}
+local members = check.members_to_run(2)
+for _, family in ipairs(families) do
+  if not members() then goto next end
+  local tubes = { { from = { 0, 0, -6 }, dir = axes[3], radius = 1, length = 12 } }
+  for n = 3, #family do
+    local at, lean, turn, radius = table.unpack(family[n])
+    lean, turn = math.rad(lean), math.rad(turn)
+    local dir = { math.sin(lean) * math.cos(turn), math.sin(lean) * math.sin(turn), math.cos(lean) }
+    tubes[#tubes + 1] = { from = { 0, 0, at }, dir = dir, radius = radius,
+      length = 1 / math.sin(lean) + radius / math.tan(lean) + 2 }
+  end
+  local path = params.scratch .. "/oblique.geo"
+  write(tubes, path)
+  local mesh = lacuna.load(path):open_volume():sweep { size = family[2], order = family[1] }
+  local least = mesh:quality().min_scaled_jacobian
+  check.that(least >= 0.3, tostring(least))
+  check.near(mesh.fidelity.volume / mesh.fidelity.sealed_volume, 1, 0.01)
+  for n = 1, mesh.nodes do
+    local off, at = math.huge, { mesh:node(n) }
+    for _, t in ipairs(tubes) do
+      local out, along = 0, 0
+      for k = 1, 3 do
+        out, along = out + (at[k] - t.from[k]) ^ 2, along + (at[k] - t.from[k]) * t.dir[k]
+      end
+      off = math.min(off, math.sqrt(math.max(0, out - along ^ 2)) - t.radius)
+    end
+    check.that(off < 1e-4, tostring(off))
+  end
+  ::next::
+end
 check.that(meshed >= 0.55 * params.members and deep_meshed >= 0.4 * deep)
 check.done()

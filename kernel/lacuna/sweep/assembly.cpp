@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/attempt.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>
@@ -12,11 +13,15 @@
 #include <lacuna/sweep/detail/assembly_order.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/carry_lines.h>
+#include <lacuna/sweep/detail/improve_joined.h>
 #include <lacuna/sweep/detail/periodic_nodes.h>
 #include <lacuna/sweep/detail/plan_heights.h>
+#include <lacuna/sweep/detail/prove_or_improve.h>
+#include <lacuna/sweep/detail/second_order.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
+#include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/shared/shared_middles.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/give_mesh.h>
@@ -90,6 +95,8 @@ public:
             sweep_again();
         }
         number_nodes(result_);
+        if (periodic_.empty()) improve_across();
+        note_poor_cells();
         sweep::pair_nodes(images(), result_, context_);
         check_no_hanging_nodes(result_, members_);
         name_groups(result_, members_);
@@ -289,6 +296,46 @@ private:
         throw MemberFailed(*reason);
     }
 
+    /// Improve cells where members meet: their nodes no single sweep may move.
+    void improve_across()
+    {
+        RaiseOrder raise_order;
+        if (members_.front().options.order > 1)
+            raise_order = [this](std::vector<Swept>& parts, const std::set<std::size_t>& moved) {
+                return static_cast<bool>(attempt<NotSweepable>([&] { place_middles(parts, moved); }));
+            };
+        auto joined = improve_joined(result_, members_, raise_order, context_);
+        if (!joined) return;
+        result_.parts = std::move(joined->parts);
+        result_.report.push_back("across the faces between volumes: " + in_words(joined->improved));
+    }
+
+    /// Place the middle nodes of moved parts again. The other parts keep theirs.
+    void place_middles(std::vector<Swept>& parts, const std::set<std::size_t>& moved)
+    {
+        middles_ = {};
+        for (const bool again : {false, true})
+            for (const std::size_t m : order_) {
+                if (moved.contains(m) != again) continue;
+                if (again) {
+                    SecondOrderOptions options = members_[m].options.second_order;
+                    give_middles(options);
+                    elevate(*members_[m].volume, parts[m].mesh, parts[m].faces, options, context_);
+                }
+                keep_middles(m, parts[m]);
+            }
+    }
+
+    void note_poor_cells()
+    {
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            Swept& part = result_.parts[m];
+            if (members_[m].fixed != nullptr || part.min_scaled_jacobian >= kPoorCell) continue;
+            part.notes.push_back(poor_in_words(part.min_scaled_jacobian));
+            part.report.push_back("note: " + part.notes.back());
+        }
+    }
+
     void note_order(const std::vector<std::size_t>& order)
     {
         if (order.size() < 2) return;
@@ -314,7 +361,7 @@ private:
             const auto made = attempt([&] {
                 make(m, handed, part);
                 check_kept(m, neighbours);
-                if (members_[m].options.order > 1) keep_middles(m);
+                if (members_[m].options.order > 1) keep_middles(m, result_.parts[m]);
             });
             if (made) continue;
             MemberFailed failed(m, why_failed(members_[m], *made.why));
@@ -462,9 +509,8 @@ private:
 
     /// Store a part's middle nodes for later members. Check that the part kept the middle nodes of earlier
     /// members.
-    void keep_middles(std::size_t m)
+    void keep_middles(std::size_t m, const Swept& part)
     {
-        const Swept& part = result_.parts[m];
         const std::set<FaceId> shared = shared_faces_of(m);
         if (!middles_.add(part.mesh, [&](Index patch) { return shared.contains(part.faces[index(patch)]); }))
             throw NotSweepable(

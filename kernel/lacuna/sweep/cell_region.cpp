@@ -21,18 +21,6 @@ std::array<Vec3, 8> corners_of(const std::vector<Vec3>& places, const Hex& hex)
     return corners;
 }
 
-std::vector<char> locked_nodes(const mesh::HexMesh& mesh, const Sliding& sliding)
-{
-    std::vector<char> locked = sliding.held;
-    locked.resize(mesh.nodes.size(), 0);
-    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        for (const Index n : mesh::skin_quad(mesh, i).nodes) {
-            if (sliding.surface.empty() || sliding.surface[index(n)] < 0) locked[index(n)] = 1;
-        }
-    }
-    return locked;
-}
-
 CellKind kind_of(const Hex& hex) { return mesh::is_wedge(hex) ? CellKind::wedge : CellKind::hex; }
 
 std::array<Vec3, 6> wedge_corners(const std::array<Vec3, 8>& corners)
@@ -97,7 +85,7 @@ double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::v
 }
 
 /// Whether each cell is poor and can be improved.
-std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>& locked, double good_enough,
+std::vector<char> poor_cells(const CellsView& mesh, const std::vector<char>& locked, double good_enough,
                              const RunContext& context)
 {
     std::vector<char> poor(mesh.cell_count(), 0);
@@ -115,7 +103,7 @@ std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>&
 }
 
 /// Add neighbours: all cells that share a node with a selected one.
-void grow(const mesh::HexMesh& mesh, std::vector<char>& taken)
+void grow(const CellsView& mesh, std::vector<char>& taken)
 {
     std::vector<char> touched(mesh.nodes.size(), 0);
     for (std::size_t c = 0; c < taken.size(); ++c) {
@@ -170,11 +158,22 @@ std::optional<StuckCorner> stuck_corner(const mesh::HexMesh& mesh, const Sliding
     return std::nullopt;
 }
 
-CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
-                       const RunContext& context)
+std::vector<char> locked_nodes(const mesh::HexMesh& mesh, const Sliding& sliding)
+{
+    std::vector<char> locked = sliding.held;
+    locked.resize(mesh.nodes.size(), 0);
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        for (const Index n : mesh::skin_quad(mesh, i).nodes) {
+            if (sliding.surface.empty() || sliding.surface[index(n)] < 0) locked[index(n)] = 1;
+        }
+    }
+    return locked;
+}
+
+CellRegion poor_region(const CellsView& mesh, const std::vector<char>& locked, const ImproveOptions& options,
+                       const Sliding& sliding, const RunContext& context)
 {
     CellRegion region;
-    const std::vector<char> locked = locked_nodes(mesh, sliding);
     std::vector<char> taken = poor_cells(mesh, locked, options.good_enough, context);
     if (std::ranges::none_of(taken, [](char c) { return c != 0; })) return region;
     for (int ring = 0; ring < options.rings; ++ring) grow(mesh, taken);
@@ -270,7 +269,10 @@ double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradi
     parallel_each(context_, region_.free, 32 * kPerTask, [&](std::size_t i) {
         Vec3 sum = Vec3::Zero();
         for (const Index use : region_.uses.of(i)) sum += slopes_[index(use)];
-        sum -= normal_[i] * normal_[i].dot(sum);
+        if (along_[i].isZero(0))
+            sum -= normal_[i] * normal_[i].dot(sum);
+        else
+            sum = along_[i] * along_[i].dot(sum);
         gradient.segment<3>(3 * static_cast<Eigen::Index>(i)) = sum;
     });
     double sum = 0;
@@ -293,7 +295,7 @@ double RegionEnergy::least_determinant(const Eigen::VectorXd& x)
         });
 }
 
-void RegionEnergy::set_planes(const Eigen::VectorXd& x)
+void RegionEnergy::set_planes(const Eigen::VectorXd& x, const Sliding& sliding)
 {
     put(x);
     normal_.assign(region_.free, Vec3::Zero());
@@ -311,6 +313,9 @@ void RegionEnergy::set_planes(const Eigen::VectorXd& x)
         }
     }
     for (Vec3& normal : normal_) normal.normalize(); // a zero vector stays zero
+    along_.assign(region_.free, Vec3::Zero());
+    for (std::size_t i = 0; sliding.along && i < region_.free; ++i)
+        if (region_.surface[i] >= 0) along_[i] = sliding.along(region_.surface[i], places_[i]);
 }
 
 } // namespace lacuna::sweep

@@ -82,17 +82,6 @@ Continued join_continued(const OpenVolume& volume, const Skin& skin, std::vector
     return result;
 }
 
-DeviationLimit limit_of(const Model& model, FaceId face, const FidelityOptions& options)
-{
-    const bool made_void = model[face].origin == Origin::made_void;
-    const bool between = made_void && options.between.contains(face);
-    const Eigen::AlignedBox3d box = box_of(model, face);
-    const double least = box.isEmpty()
-                             ? 0
-                             : std::min(kLeastOfModel * model.diagonal, kLeastOfFace * box.diagonal().norm());
-    return {options.max_deviation, between ? 1 : kFollowsFace, least, !made_void}; // between volumes: a side
-}
-
 std::string at_place(const Vec3& p) { return place_with_digits(p, 4); }
 
 /// A length a little below `value`, rounded to two digits.
@@ -135,6 +124,30 @@ Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
 
 } // namespace
 
+void sum_distances(Fidelity& fidelity, const Model& model)
+{
+    double area = 0, sum = 0;
+    fidelity.max_distance = 0;
+    for (const FaceFidelity& face : fidelity.faces) {
+        const double own = face_area(model, face.face);
+        fidelity.max_distance = std::max(fidelity.max_distance, face.max_distance);
+        sum += own * face.mean_distance;
+        area += own;
+    }
+    fidelity.mean_distance = area > 0 ? sum / area : 0;
+}
+
+DeviationLimit limit_of(const Model& model, FaceId face, const FidelityOptions& options)
+{
+    const bool made_void = model[face].origin == Origin::made_void;
+    const bool between = made_void && options.between.contains(face);
+    const Eigen::AlignedBox3d box = box_of(model, face);
+    const double least = box.isEmpty()
+                             ? 0
+                             : std::min(kLeastOfModel * model.diagonal, kLeastOfFace * box.diagonal().norm());
+    return {options.max_deviation, between ? 1 : kFollowsFace, least, !made_void}; // between volumes: a side
+}
+
 namespace {
 
 /// Compare the skin of a mesh with the sealed skin.
@@ -175,7 +188,6 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
         compared[covered.index()] = compared[wall.index()];
         compared[covered.index()].misfit = Misfit::none; // reported for the wall
     }
-    double area = 0;
     for (const SkinOfFace& patch : skin.faces) {
         FaceFidelity& face = compared[patch.face.index()];
         if (patch.quads.empty() && !continued.wall.contains(patch.face))
@@ -187,13 +199,9 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
         face.entity = entity_of(model, patch.face);
         face.tag = model[patch.face].tag;
         face.made_void = model[patch.face].origin == Origin::made_void;
-        const double own = face_area(model, patch.face);
-        result.max_distance = std::max(result.max_distance, face.max_distance);
-        result.mean_distance += own * face.mean_distance;
-        area += own;
         result.faces.push_back(std::move(face));
     }
-    if (area > 0) result.mean_distance /= area;
+    sum_distances(result, model);
     return result;
 }
 

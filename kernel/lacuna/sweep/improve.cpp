@@ -27,9 +27,9 @@ constexpr double kShapeShare = 1e-3;
 
 class Improver {
 public:
-    Improver(mesh::HexMesh& mesh, const CellRegion& region, const ImproveOptions& options,
+    Improver(std::vector<Vec3>& nodes, const CellRegion& region, const ImproveOptions& options,
              const Sliding& sliding, const RunContext& context)
-        : mesh_(mesh),
+        : nodes_(nodes),
           region_(region),
           options_(with_shared_limits(options)),
           sliding_(sliding),
@@ -53,15 +53,15 @@ public:
         result.unfinished = out_of_time();
         result.won = is_better(best_quality_, first);
         for (std::size_t i = 0; result.won && i < region_.free; ++i)
-            mesh_.nodes[index(region_.node[i])] = best_[i];
+            nodes_[index(region_.node[i])] = best_[i];
         return result;
     }
 
 private:
-    static std::vector<Vec3> places_of(const mesh::HexMesh& mesh, const CellRegion& region)
+    static std::vector<Vec3> places_of(const std::vector<Vec3>& nodes, const CellRegion& region)
     {
         std::vector<Vec3> places;
-        for (const Index n : region.node) places.push_back(mesh.nodes[index(n)]);
+        for (const Index n : region.node) places.push_back(nodes[index(n)]);
         return places;
     }
 
@@ -98,7 +98,7 @@ private:
     /// back onto their surfaces, and the best iterate is kept.
     void descend(Eigen::VectorXd& x, double mean_floor)
     {
-        energy_.set_planes(x);
+        energy_.set_planes(x, sliding_);
         geometry::MinimiseOptions how;
         how.iterations = options_.iterations;
         how.stop = [&] {
@@ -196,14 +196,14 @@ private:
         }
     }
 
-    mesh::HexMesh& mesh_;
+    std::vector<Vec3>& nodes_;
     const CellRegion& region_;
     ImproveOptions options_;
     const Sliding& sliding_;
     const RunContext& context_;
     double work_ = 0; ///< number of cell evaluations
-    RegionEnergy energy_{region_, places_of(mesh_, region_), context_};
-    std::vector<Vec3> best_ = places_of(mesh_, region_);
+    RegionEnergy energy_{region_, places_of(nodes_, region_), context_};
+    std::vector<Vec3> best_ = places_of(nodes_, region_);
     RegionQuality best_quality_ = measure(region_, best_, context_);
 };
 
@@ -215,6 +215,14 @@ ImproveOptions with_shared_limits(ImproveOptions options)
     return options;
 }
 
+Improved improve_cells(std::vector<Vec3>& nodes, const CellsView& cells, const std::vector<char>& locked,
+                       const ImproveOptions& options, const Sliding& sliding, const RunContext& context)
+{
+    const CellRegion region = poor_region(cells, locked, options, sliding, context);
+    if (region.free == 0) return {};
+    return Improver(nodes, region, options, sliding, context).run();
+}
+
 Improved improve(mesh::HexMesh mesh, const ImproveOptions& options, const Sliding& sliding,
                  const RunContext& context)
 {
@@ -223,8 +231,8 @@ Improved improve(mesh::HexMesh mesh, const ImproveOptions& options, const Slidin
     Improved result;
     result.stuck = stuck_corner(mesh, sliding);
     if (!result.stuck) {
-        const CellRegion region = poor_region(mesh, options, sliding, context);
-        if (region.free > 0) result = Improver(mesh, region, options, sliding, context).run();
+        const CellsView cells{mesh.nodes, mesh.cell_count(), [&](std::size_t c) { return mesh.hex(c); }};
+        result = improve_cells(mesh.nodes, cells, locked_nodes(mesh, sliding), options, sliding, context);
     }
     result.mesh = std::move(mesh);
     return result;

@@ -47,6 +47,8 @@ struct Sliding {
     std::vector<Index> surface;
     std::function<void(Index surface, std::span<Vec3> points)> project; ///< moves the points onto that
                                                                         ///< surface
+    /// The direction of a surface that is a curve, at a point; zero: it is no curve. Null: none is.
+    std::function<Vec3(Index surface, const Vec3& point)> along{};
     /// For each node of the mesh, whether it is fixed, even if it is inside; empty: none is.
     std::vector<char> held{};
 };

@@ -81,6 +81,8 @@ Message in_words(const std::string& code, const StuckCorner& stuck, const mesh::
         .remedy("name other faces as source and target, or cut the volume there");
 }
 
+} // namespace
+
 std::string in_words(const Improved& improved)
 {
     return formatted(
@@ -90,8 +92,6 @@ std::string in_words(const Improved& improved)
         improved.after, improved.mean_before, improved.mean_after,
         improved.unfinished ? "; stopped by the limit of work, or by improve = { seconds = … }" : "");
 }
-
-} // namespace
 
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::set<FaceId>& kept, std::vector<char> held,
@@ -108,7 +108,7 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
         projectors.try_emplace(patch, model, std::vector<FaceId>{faces[index(patch)]})
             .first->second.project(points, context);
     };
-    const Sliding sliding{sliding_nodes(swept.mesh, faces, kept), project, std::move(held)};
+    const Sliding sliding{sliding_nodes(swept.mesh, faces, kept), project, {}, std::move(held)};
     const RunContext part = part_of(context, share::improving, share::order_2);
     Improved improved = improve(std::move(swept.mesh), improving, sliding, part);
     swept.mesh = std::move(improved.mesh);

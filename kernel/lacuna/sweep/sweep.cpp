@@ -258,15 +258,6 @@ std::string volume_in_words(const Swept& swept, const OpenVolume& volume, const 
               : "");
 }
 
-/// Suggest what to do about poor cells.
-std::string poor_in_words(double least)
-{
-    return formatted(
-        "the least scaled Jacobian is {:.2g}; check the shape for a corner that sharp, try another 'size', "
-        "or set 'min_scaled_jacobian' to refuse such meshes",
-        least);
-}
-
 } // namespace
 
 Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
@@ -274,7 +265,7 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     SweepOptions options = asked;
     options.improving = with_shared_limits(options.improving);
     Swept swept = search(volume, options, context);
-    if (swept.min_scaled_jacobian < kPoorCell)
+    if (!asked.beside.settle && swept.min_scaled_jacobian < kPoorCell)
         swept.notes.push_back(poor_in_words(swept.min_scaled_jacobian));
     if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted)
         swept.notes.push_back(volume_in_words(swept, volume, options));

@@ -177,6 +177,7 @@ struct Swept {
     quality::Quality quality;        ///< quality of the cells, from the proof
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
+    std::vector<char> held;          ///< nodes of boundary layers, which must not move; empty: none
     std::vector<std::string> report; ///< a line for each stage: seeds, quads, walls, target, layers, shape
     /// Lines of the report on default sizes, on given sizes that the shape reduces, and on default numbers of
     /// layers. `sweep()` also logs these lines; for volumes of an assembly, `sweep_assembly()` does.

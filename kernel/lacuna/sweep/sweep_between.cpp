@@ -378,6 +378,7 @@ private:
         hold_creases(*links_, source_, planned_.heights.size(), kept.held);
         for (std::string& note : kept.report) result_.report.push_back(std::move(note));
         held_ = std::move(kept.held);
+        result_.held = held_;
 
         result_.mesh = cells_over(source_.quads, columns_.layers);
         result_.mesh.nodes = std::move(layers.nodes);

@@ -9,10 +9,20 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 namespace lacuna::sweep {
+
+/// The cells of one mesh, or of several meshes with common nodes.
+struct CellsView {
+    const std::vector<Vec3>& nodes;
+    std::size_t count = 0;
+    std::function<Hex(std::size_t)> hex;
+
+    [[nodiscard]] std::size_t cell_count() const { return count; }
+};
 
 /// The part of a mesh that is improved, with node numbers of its own: first the free nodes, then the fixed
 /// nodes around them.
@@ -29,8 +39,15 @@ struct CellRegion {
 
 /// Select poor cells whose quality is not already at the bound set by their fixed nodes, and `rings` rings of
 /// cells around them. The angle between two fixed edges bounds the quality of the corner between them.
-CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
-                       const RunContext& context);
+CellRegion poor_region(const CellsView& mesh, const std::vector<char>& locked, const ImproveOptions& options,
+                       const Sliding& sliding, const RunContext& context);
+
+/// Improve the cells of a region around poor cells (`improve()`); moves `nodes`, of which `cells` is a view.
+Improved improve_cells(std::vector<Vec3>& nodes, const CellsView& cells, const std::vector<char>& locked,
+                       const ImproveOptions& options, const Sliding& sliding, const RunContext& context);
+
+/// The nodes of a mesh that are fixed: those of the skin that do not slide.
+std::vector<char> locked_nodes(const mesh::HexMesh& mesh, const Sliding& sliding);
 
 /// The first cell that has no volume because of fixed nodes: two of its sides that meet in a corner are
 /// collinear.
@@ -60,7 +77,7 @@ public:
     double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
     [[nodiscard]] double least_determinant(const Eigen::VectorXd& x);
     /// Update the tangent planes of sliding nodes to the skin at `x`.
-    void set_planes(const Eigen::VectorXd& x);
+    void set_planes(const Eigen::VectorXd& x, const Sliding& sliding);
 
 private:
     void put(const Eigen::VectorXd& x);
@@ -70,6 +87,7 @@ private:
     std::vector<Vec3> places_;
     std::vector<Vec3> slopes_; ///< gradient at each use of a free node
     std::vector<Vec3> normal_; ///< normal of the surface at each free node; zero inside
+    std::vector<Vec3> along_;  ///< direction of the curve at each free node; zero: it is on none
 };
 
 } // namespace lacuna::sweep

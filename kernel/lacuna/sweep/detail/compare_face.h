@@ -49,6 +49,12 @@ struct DeviationLimit {
     bool folds = true;
 };
 
+/// Set the largest and the mean distance from those of the faces.
+void sum_distances(Fidelity& fidelity, const topology::Model& model);
+
+/// The limit for a face of a volume.
+DeviationLimit limit_of(const topology::Model& model, FaceId face, const FidelityOptions& options);
+
 /// The skin of tetrahedra and pyramids by face of the model. It contains triangles as well as quads.
 Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::size_t face_count);
 

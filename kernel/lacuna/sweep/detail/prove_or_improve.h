@@ -2,9 +2,11 @@
 #pragma once
 
 #include <lacuna/quality/quality.h>
+#include <lacuna/sweep/improve.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <set>
+#include <string>
 #include <vector>
 
 namespace lacuna::sweep {
@@ -18,5 +20,8 @@ namespace lacuna::sweep {
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::set<FaceId>& kept, std::vector<char> held,
                                 const SweepOptions& options, const RunContext& context);
+
+/// The result of an improvement as a line of the report.
+std::string in_words(const Improved& improved);
 
 } // namespace lacuna::sweep
