@@ -43,11 +43,12 @@ public:
     {
         find_parts();
         std::vector<StepPiece> pieces;
+        const std::vector<int> level = parted_.stacked ? levels() : std::vector<int>(parts_.size(), 0);
         for (const Part& part : parts_) {
             Roles roles = roles_of(part);
             // Ends of the whole may not be ends of a piece: then those of the piece are to be found.
             if (has_part_without_end(roles) || touches(roles.source, roles.target)) roles = all_walls(part);
-            pieces.push_back({open_volume(model_, roles, context_), parted_.stacked ? steps_below(part) : 0});
+            pieces.push_back({open_volume(model_, roles, context_), level[pieces.size()]});
         }
         return pieces;
     }
@@ -120,15 +121,28 @@ private:
         }
     }
 
-    /// Level of a part: the number of pieces in front of it, along the longest chain of pieces.
-    [[nodiscard]] int steps_below(const Part& part) const
+    /// Level of each part: the number of pieces in front of it, along the longest chain of pieces. In a ring
+    /// of pieces, such as steps on both sides of a shaft, each one lies in front of another.
+    [[nodiscard]] std::vector<int> levels() const
     {
-        int steps = 0;
-        for (const Part& other : parts_)
-            if (&other != &part &&
-                std::ranges::find_first_of(part.behind, other.partitions) != part.behind.end())
-                steps = std::max(steps, 1 + steps_below(other));
-        return steps;
+        const int most = static_cast<int>(parts_.size()) - 1;
+        std::vector<int> levels(parts_.size(), 0);
+        const auto raise = [&](std::size_t p, std::size_t other) {
+            const int now = std::min(most, levels[other] + 1);
+            if (p == other || now <= levels[p] ||
+                std::ranges::find_first_of(parts_[p].behind, parts_[other].partitions) ==
+                    parts_[p].behind.end())
+                return false;
+            levels[p] = now;
+            return true;
+        };
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::size_t p = 0; p < parts_.size(); ++p)
+                for (std::size_t other = 0; other < parts_.size(); ++other)
+                    changed = raise(p, other) || changed;
+        }
+        return levels;
     }
 
     [[nodiscard]] std::size_t part_round(const std::vector<FaceId>& skin)
