@@ -15,6 +15,7 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <set>
@@ -211,6 +212,13 @@ private:
             std::vector<double> at;
             for (std::size_t k = 0; k <= layers_; ++k)
                 at.push_back(grid_.place[k * count_ + node].y() * chain.length());
+            // A level that other walls or neighbours prescribed at a vertex of the line is known up to the
+            // accuracy of their maps alone.
+            for (std::size_t use = 1; use < chain.uses().size(); ++use) {
+                const double vertex = chain.start(use);
+                for (std::size_t k = 1; k < layers_; ++k)
+                    if (std::abs(at[k] - vertex) <= kAlikeSizes * (at[k + 1] - at[k - 1]) / 2) at[k] = vertex;
+            }
             const std::vector<Vec3> points = chain.points(at);
             for (std::size_t k = 1; k < layers_; ++k) {
                 if (!begun_.given.has_node(k, node))
