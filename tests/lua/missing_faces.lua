@@ -217,6 +217,8 @@ for what, case in pairs {
       .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}", { { 1, 0, 5 }, { 0, 0, 4 } } },
   ["hollow of a dome"] = { "Sphere(1)={0,0,0,3,0,Pi/2,2*Pi}; Sphere(2)={0,0,0,2.5,0,Pi/2,2*Pi};"
       .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}", { { 0, 0, 2.5 } } },
+  ["ball below a square column"] = { "Sphere(1)={0,0,0,2}; Box(2)={-0.8,-0.8,0,1.6,1.6,2.6};"
+      .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}", { { 0, 0, -2 } } },
   ["ball end and base"] = { "Cylinder(1)={0,0,0,0,0,4,1.5}; Sphere(2)={0,0,4,1.5};"
       .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}", { { 0, 0, 5.5 }, { 0, 0, 0 } } },
   ["all but the outer wall of a ring"] = { "Cylinder(1)={0,0,0,0,0,2,3}; Cylinder(2)={0,0,-1,0,0,9,1.5};"

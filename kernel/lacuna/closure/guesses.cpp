@@ -272,6 +272,15 @@ std::vector<ClosedHole> closed_holes(std::size_t given, const Model& own,
     return holes;
 }
 
+/// Whether a volume lies outside the ball around a centre on which a face of its skin lies.
+bool is_hollow(const Model& sealed, FaceId face, const Vec3& centre)
+{
+    double outward = 0;
+    for (const Triangle& t : sealed[face].triangles)
+        outward += (sealed.at(t[0]) - centre).dot(facet_area_vector(sealed, t));
+    return outward < 0;
+}
+
 /// The given faces beside some void faces.
 std::vector<NamedEntity> given_beside(const Model& model, const std::vector<FaceId>& faces)
 {
@@ -537,15 +546,16 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
     const bool inward = look_inward(model, given, sealed.model);
     for (const FaceId face : closure.void_faces) {
         const auto shape = round_shape(sealed.model, face);
-        if (inward && shape && shape->is_sphere())
-            assume(
-                closure,
-                Message("closure.ball_part",
-                        "{} is the smaller part of the ball through its rim, although the faces beside this "
-                        "rim are oriented into the volume",
-                        entity_of(sealed.model, face))
-                    .remedy("if the other part bounds the volume, give it"),
-                1);
+        if (!shape || !shape->is_sphere()) continue;
+        const bool hollow = is_hollow(sealed.model, face, shape->centre);
+        if (!inward && !hollow) continue;
+        assume(closure,
+               Message("closure.ball_part", "{} is the smaller part of the ball through its rim, although {}",
+                       entity_of(sealed.model, face),
+                       inward ? "the faces beside this rim are oriented into the volume"
+                              : "the volume then lies outside this ball")
+                   .remedy("if the other part bounds the volume, give it"),
+               1);
     }
     for (const auto& [round, filler] : closed_holes(given.size(), sealed.model, closure.void_faces)) {
         const bool wall = sealed.role[filler.index()] == Role::wall;

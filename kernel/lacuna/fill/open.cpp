@@ -360,7 +360,7 @@ std::optional<Opening> without_overhangs(const Model& whole, const RoleRequest& 
         auto shorter = opening_of(now, model, std::move(*trimmed));
         if (!shorter) return opening;
         log_line(context,
-                 formatted("note: cut off in the plane of the rim of {}: {}",
+                 formatted("note: cut off in the plane of the rim of {}: {} [closure.cut_off]",
                            topology::entity_of(model, found->beside), topology::entities_of(model, lost)));
         opening = std::move(shorter);
     }
