@@ -476,6 +476,10 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
         (is_whole && take_some(divided_at_centre(volume, kMostPieces, can_sweep, context))) ||
         (is_whole && take_some(divided_at_vertices(volume, kMostPieces, can_sweep, context))))
         return;
+    if (is_whole) { // the blocks of cones are many, but small and all alike
+        Pieces blocks = divided_at_middle(volume, 2 * kMostPieces, can_sweep, context);
+        if (blocks.size() > kMostPieces && take(std::move(blocks))) return;
+    }
     // The whole volume may have ends that were not tried yet, such as a top with its chamfers.
     if (!is_swept && first.size() == 1)
         first.front().has_ends = find_ends(first.front().piece, suits, context) &&

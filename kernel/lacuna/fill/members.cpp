@@ -59,6 +59,16 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
 
 // --- parts ------------------------------------------------------------------------------------------------
 
+/// Whether a piece is bounded by six four-sided faces without a mesh.
+bool is_block(const closure::StepPiece& piece)
+{
+    const std::vector<topology::Face>& faces = piece.volume.model.faces;
+    return faces.size() == 6 && std::ranges::all_of(faces, [](const topology::Face& face) {
+               return face.loops.size() == 1 && face.loops.front().uses.size() == 4 &&
+                      face.given_quads.empty();
+           });
+}
+
 /// Add the pieces of a volume. A piece without ends can only be filled with tetrahedra.
 /// @param name  region name, to which a number is appended.
 /// @param whole  group of the cells of all pieces.
@@ -66,6 +76,7 @@ void add_pieces(std::vector<Part>& parts, const Member& asked, const std::string
                 const std::string& whole, std::vector<closure::StepPiece> pieces)
 {
     int number = 0;
+    const bool blocks = pieces.size() > 1 && std::ranges::all_of(pieces, is_block);
     for (closure::StepPiece& piece : pieces) {
         const double from = piece.turn_from, to = piece.turn_to;
         Part& part = parts.emplace_back(Part{&asked, name, {}, nullptr});
@@ -75,6 +86,7 @@ void add_pieces(std::vector<Part>& parts, const Member& asked, const std::string
         if (to - from < 1) part.volume.turn_of = name;
         part.piece_of = asked.volume;
         part.whole = whole;
+        part.is_block = blocks;
     }
 }
 
@@ -173,6 +185,9 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
     member.piece_of = part.piece_of != nullptr ? &part.piece_of->volume : nullptr;
     member.alone = alone;
     if (volume.level > 0) member.options.layers = {};
+    // An end of one block is a wall of another one, where it is a grid.
+    if (part.is_block && member.options.quads == sweep::Quads::automatic)
+        member.options.quads = sweep::Quads::mapped;
     share_layers(volume, member.options.layers);
     keep_given_middles(volume, member.options.second_order);
     return member;

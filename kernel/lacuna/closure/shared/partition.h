@@ -49,7 +49,8 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - a body of revolution with a bore around its axis, cut into two halves that are swept around the axis;
 /// - the volume divided at its middle (`midpoint_blocks()`);
 /// - divided across an axis where smooth parts of the skin turn over;
-/// - divided at a centre or at vertices, if no cut was made and no length is left to cut;
+/// - divided at a centre or at vertices, or at its middle into up to twice as many blocks as there may be
+///   pieces otherwise, if no cut was made and no length is left to cut;
 /// - the pieces of the best cuts, if some have no ends. Pieces that still have a length to cut are divided at
 ///   their middles where that is possible. If no cut helps, the only piece is the volume itself, with other
 ///   ends if there are any;
