@@ -121,6 +121,45 @@ for _, thick in ipairs { 3.6, 4, 4.4 } do
   is_swept(params.scratch .. "/legs.geo", geo, volume, "both legs")
 end
 
+-- A shaft with two fins, a bore and a stud, in an order of faces in which pieces lie in front of each other
+-- all round the shaft.
+do
+  local mesh = lacuna.load(arg[0]:match("^(.*/)") .. "finned_shaft.step"):open_volume {}:sweep {}
+  local quality = mesh:quality()
+  check.that(quality.certified and mesh.tets == 0 and quality.min_scaled_jacobian > 0.2, "fins")
+  check.near(quality.volume / (math.pi * (0.8 * 1.6 + 0.6 * (1.9 ^ 2 - 1.2 ^ 2 - 0.18 ^ 2))), 1, 0.02)
+end
+
+-- An angle plate with a rounded edge, gussets and slots: layers of one piece end at vertices of the others.
+do
+  local width, thick, high = 4, 0.6, 1.9
+  local geo = ("Box(1) = {0,0,0, 5,%.15g,%.15g};  Box(2) = {0,0,0, %.15g,%.15g,4};\n"):format(width, thick,
+      thick, width) .. "BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };\n"
+    .. "e() = Curve In BoundingBox{-0.01,-0.01,-0.01, 0.01,9,0.01};  v() = Fillet{3}{e()}{0.4};\n"
+  for n, y in ipairs { 0, width - 0.4 } do
+    local at = 100 * n
+    geo = geo .. ("Point(%d) = {%.15g,%.15g,%.15g};  Point(%d) = {%.15g,%.15g,%.15g};\n"):format(at, thick, y,
+        thick, at + 1, thick + high, y, thick)
+      .. ("Point(%d) = {%.15g,%.15g,%.15g};  Line(%d) = {%d,%d};\n"):format(at + 2, thick, y, thick + high,
+        at, at, at + 1)
+      .. ("Line(%d) = {%d,%d};  Line(%d) = {%d,%d};\n"):format(at + 1, at + 1, at + 2, at + 2, at + 2, at)
+      .. ("Curve Loop(%d) = {%d:%d};  Plane Surface(%d) = {%d};\n"):format(at, at, at + 2, at, at)
+      .. ("g%d() = Extrude{0, 0.4, 0}{ Surface{%d}; };\n"):format(n, at)
+  end
+  geo = geo .. "BooleanUnion(9) = { Volume{v()}; Delete; }{ Volume{g1[1],g2[1]}; Delete; };\n"
+    .. ("Cylinder(20) = {-1,%.15g,3.1, 9,0,0, 0.4};\n"):format(width / 2)
+  for n, y in ipairs { 1.1, 2.5 } do
+    geo = geo .. ("Box(%d) = {3.2,%.15g,-1, 1,0.5,3};\n"):format(3 * n + 21, y)
+      .. ("Cylinder(%d) = {3.2,%.15g,-1, 0,0,3, 0.25};  "):format(3 * n + 22, y + 0.25)
+      .. ("Cylinder(%d) = {4.2,%.15g,-1, 0,0,3, 0.25};\n"):format(3 * n + 23, y + 0.25)
+  end
+  geo = geo .. "BooleanUnion(10) = { Volume{24}; Delete; }{ Volume{25,26}; Delete; };\n"
+    .. "BooleanUnion(11) = { Volume{27}; Delete; }{ Volume{28,29}; Delete; };\n"
+    .. "BooleanDifference{ Volume{9}; Delete; }{ Volume{10,11,20}; Delete; }"
+  is_swept(params.scratch .. "/angle.geo", geo, (9 - thick) * thick * width + 0.4 * high ^ 2
+    - (1 - math.pi / 4) * 0.16 * width - thick * (0.16 * math.pi + 1 + math.pi / 8), "angle")
+end
+
 check.family(params, function(number)
   if number == 81 then return "refused: hollows in both ends whose rims nearly coincide" end
   local random = check.random(104729 * number + 31)
