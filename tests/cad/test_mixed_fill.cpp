@@ -23,10 +23,10 @@ using test::refusal;
 
 namespace {
 
-/// A pyramid over a polygon of nine sides, which neither a sweep nor pieces fill.
+/// A pyramid over a polygon of forty sides, which neither a sweep nor pieces fill.
 topology::Model pyramid()
 {
-    constexpr Index kSides = 9;
+    constexpr Index kSides = 40;
     healing::FacetSoup soup;
     for (Index k = 0; k < kSides; ++k) {
         const double angle = 2 * std::numbers::pi * k / kSides;
@@ -91,7 +91,7 @@ TEST_CASE(
     const auto& parts = std::get<fill::FilledParts>(tets.mesh);
     CHECK(fill::cell_count(parts, mesh::CellShape::tet4) > 50);
     CHECK(fill::cell_count(parts, mesh::CellShape::hex8) == 0);
-    CHECK(fill::fidelity(parts).volume == doctest::Approx(1.5 * std::sin(2 * std::numbers::pi / 9)));
+    CHECK(fill::fidelity(parts).volume == doctest::Approx(20.0 / 3 * std::sin(2 * std::numbers::pi / 40)));
     CHECK(fill::measure(fill::whole_cells(parts)).uncertified == 0);
     const io::Deck deck = fill::whole_deck(parts, {});
     CHECK(deck.points.size() == parts.swept.nodes);

@@ -148,17 +148,17 @@ end
 
 -- --- tetrahedra -------------------------------------------------------------------------------------------
 
--- Nine faces that meet in a tip: no sweep, no cut, and a division at the middle makes too many pieces.
+-- Forty faces that meet in a tip: no sweep, no cut, and a division at the middle makes too many pieces.
 local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
 local corner = { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } }
 local pyramid, base = {}, {}
-for k = 1, 9 do
-  local angle = 2 * math.pi * k / 9
+for k = 1, 40 do
+  local angle = 2 * math.pi * k / 40
   base[k] = { math.cos(angle), math.sin(angle), 0 }
 end
-for k = 1, 9 do pyramid[k] = { base[k], base[k % 9 + 1], { 0, 0, 1 } } end
-pyramid[10] = {}
-for k = 1, 9 do pyramid[10][k] = base[10 - k] end
+for k = 1, 40 do pyramid[k] = { base[k], base[k % 40 + 1], { 0, 0, 1 } } end
+pyramid[41] = {}
+for k = 1, 40 do pyramid[41][k] = base[41 - k] end
 do
   local volume = solid(pyramid):open_volume {}
   local remedy = 'or sweep with fallback = "mixed" [topology.no_roles]'
@@ -172,7 +172,7 @@ do
     check.fails(function() object:sweep_to(path("a.msh"), { fallback = "mixed" }) end, "use sweep and write")
   end
   local mesh = volume:sweep { fallback = "mixed", size = 0.2 }
-  check_mesh(mesh, 1.5 * math.sin(2 * math.pi / 9))
+  check_mesh(mesh, 20 / 3 * math.sin(2 * math.pi / 40))
   check.equal(mesh.hexes, 0)
   check.equal(mesh.pyramids, 0)
   check.that(mesh.tets > 50, mesh.tets .. " tetrahedra")
@@ -192,7 +192,7 @@ do
   end
   -- A tetrahedron of order 2 has ten nodes; no side is numbered twice.
   local second = volume:sweep { fallback = "mixed", size = 0.2, order = 2 }
-  check_mesh(second, 1.5 * math.sin(2 * math.pi / 9))
+  check_mesh(second, 20 / 3 * math.sin(2 * math.pi / 40))
   check.equal(second.order, 2)
   check.equal(second.tets, mesh.tets)
   local sides, count = {}, 0

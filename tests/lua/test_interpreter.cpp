@@ -71,15 +71,15 @@ mesh = volume:sweep { size = 0.5, fallback = "mixed" }
 hexes, tets, filled = mesh.hexes, mesh.tets, mesh:quality().volume
 )lua";
 
-/// A pyramid over nine sides in tetrahedra of a size.
+/// A pyramid over forty sides in tetrahedra of a size.
 const char* const kPyramid = R"lua(
 local pyramid = require("lacuna").model()
 local base, cells = {}, {}
-for k = 1, 9 do base[k] = { math.cos(2 * math.pi * k / 9), math.sin(2 * math.pi * k / 9), 0 } end
-for k = 1, 9 do
-  pyramid:add_face { points = { base[k], base[k % 9 + 1], { 0, 0, 1 } }, cells = { { 1, 2, 3 } } }
+for k = 1, 40 do base[k] = { math.cos(2 * math.pi * k / 40), math.sin(2 * math.pi * k / 40), 0 } end
+for k = 1, 40 do
+  pyramid:add_face { points = { base[k], base[k % 40 + 1], { 0, 0, 1 } }, cells = { { 1, 2, 3 } } }
 end
-for k = 2, 8 do cells[k - 1] = { 1, k + 1, k } end
+for k = 2, 39 do cells[k - 1] = { 1, k + 1, k } end
 pyramid:add_face { points = base, cells = cells }
 mesh = pyramid:open_volume {}:sweep { size = size, fallback = "mixed" }
 nodes, tets = mesh:coordinates(), mesh:cells "tet"

@@ -59,11 +59,19 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
 
 // --- parts ------------------------------------------------------------------------------------------------
 
-/// Whether a piece is bounded by six four-sided faces without a mesh.
+/// Whether a piece is bounded by six four-sided faces without a mesh, with straight edges.
 bool is_block(const closure::StepPiece& piece)
 {
-    const std::vector<topology::Face>& faces = piece.volume.model.faces;
-    return faces.size() == 6 && std::ranges::all_of(faces, [](const topology::Face& face) {
+    const topology::Model& model = piece.volume.model;
+    const auto is_straight = [&](const topology::Edge& edge) {
+        const Vec3 chord = model.at(edge.points.back()) - model.at(edge.points.front());
+        return std::ranges::all_of(edge.points, [&](Index p) {
+            return (model.at(p) - model.at(edge.points.front())).cross(chord).norm() <=
+                   model.tolerance * chord.norm();
+        });
+    };
+    return model.faces.size() == 6 && std::ranges::all_of(model.edges, is_straight) &&
+           std::ranges::all_of(model.faces, [](const topology::Face& face) {
                return face.loops.size() == 1 && face.loops.front().uses.size() == 4 &&
                       face.given_quads.empty();
            });

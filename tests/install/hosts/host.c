@@ -12,15 +12,15 @@ static const char recipe[] = "local lacuna = require 'lacuna'\n"
                              "print(mesh)\n"
                              "nodes, cells = mesh:coordinates(), mesh:cells()\n";
 
-/* A pyramid over nine sides, which neither a sweep nor pieces fill. */
+/* A pyramid over forty sides, which neither a sweep nor pieces fill. */
 static const char pyramid[] =
     "local pyramid = require('lacuna').model()\n"
     "local base, cells = {}, {}\n"
-    "for k = 1, 9 do base[k] = { math.cos(2 * math.pi * k / 9), math.sin(2 * math.pi * k / 9), 0 } end\n"
-    "for k = 1, 9 do\n"
-    "  pyramid:add_face { points = { base[k], base[k % 9 + 1], { 0, 0, 1 } }, cells = { { 1, 2, 3 } } }\n"
+    "for k = 1, 40 do base[k] = { math.cos(2 * math.pi * k / 40), math.sin(2 * math.pi * k / 40), 0 } end\n"
+    "for k = 1, 40 do\n"
+    "  pyramid:add_face { points = { base[k], base[k % 40 + 1], { 0, 0, 1 } }, cells = { { 1, 2, 3 } } }\n"
     "end\n"
-    "for k = 2, 8 do cells[k - 1] = { 1, k + 1, k } end\n"
+    "for k = 2, 39 do cells[k - 1] = { 1, k + 1, k } end\n"
     "pyramid:add_face { points = base, cells = cells }\n"
     "mesh = pyramid:open_volume {}:sweep { size = 0.2, fallback = 'mixed' }\n"
     "tets = mesh:cells 'tet'\n";

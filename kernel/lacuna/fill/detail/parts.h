@@ -22,7 +22,7 @@ struct Part {
     const Volume* piece_of = nullptr; ///< volume that this part is a piece of; null: it is not a piece
     std::string whole{};              ///< name of that volume
     std::size_t glue = 0;             ///< as in `sweep::AssemblyMember`
-    bool is_block = false; ///< whether all pieces of the volume are bounded by six four-sided faces
+    bool is_block = false;            ///< whether all pieces have six four-sided faces and straight edges
 };
 
 /// Drop the faces that a member does not have from its options: options for several volumes may name faces
