@@ -188,4 +188,22 @@ for size, bound in pairs { [3] = 0.65, [1.5] = 0.38, [0.75] = 0.2 } do
   for _, group in ipairs(mesh:groups()) do names[group.name] = group end
   check.that(names.round ~= nil, "the round keeps its name")
 end
+
+-- Two cups, each of one smooth face, between whose brims the ring is missing: all walls are, so nothing of the
+-- cups is a wall, and cells run from cup to cup.
+for _, gap in ipairs { 3, 8 } do
+  local cups = lacuna.model()
+  for k, name in ipairs { "inner", "outer" } do
+    local radius, low, bend, rings = 30 + (k - 1) * gap, (2 - k) * gap, 10 + (k - 1) * gap / 2, {}
+    for j = 0, 8 do rings[j + 1] = { radius, 100 - j / 8 * (100 - low - bend) } end
+    for j = 1, arc do
+      local t = math.pi / 2 * j / arc
+      rings[#rings + 1] = { radius - bend + bend * math.cos(t), low + bend - bend * math.sin(t) }
+    end
+    band(cups, name, rings, still, true)
+  end
+  local mesh = cups:open_volume { source = "inner", target = "outer" }:sweep {}
+  check.that(mesh:quality().min_scaled_jacobian > 0.4, gap)
+  check.near(mesh:quality().volume / mesh.fidelity.sealed_volume, 1, 0.02)
+end
 check.done()

@@ -310,6 +310,8 @@ std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<
 
 bool has_round_steps(const OpenVolume& volume, const RunContext& context)
 {
+    // Between two open skins, such as two cups, all walls are missing.
+    if (volume.faces(Role::wall).empty() && !free_edges(volume).empty()) return false;
     std::vector<double> turns;
     // Walls that meet the whole rim of an end at corners are beside it, so all of it is an end: a dome that
     // is swept through its thickness.
