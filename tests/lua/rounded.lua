@@ -189,8 +189,8 @@ for size, bound in pairs { [3] = 0.65, [1.5] = 0.38, [0.75] = 0.2 } do
   check.that(names.round ~= nil, "the round keeps its name")
 end
 
--- Two cups, each of one smooth face, between whose brims the ring is missing: all walls are, so nothing of the
--- cups is a wall, and cells run from cup to cup.
+-- Two cups, each of one smooth face, between whose brims the ring is missing: all walls are missing, so that
+-- nothing of the cups is a wall, and cells run from cup to cup.
 for _, gap in ipairs { 3, 8 } do
   local cups = lacuna.model()
   for k, name in ipairs { "inner", "outer" } do

@@ -419,7 +419,7 @@ FaceId add_partition(Model& model, const std::vector<std::vector<EdgeUse>>& loop
     if (geometry::find_crossing(outline.flat, outline.loops))
         throw NotSweepable(
             Message("closure.cut_touches", "{} would run along faces that are nearly in its plane", name)
-                .remedy("cut by a plane that is moved or tilted a little"));
+                .remedy("cut the volume by another plane, with cut{{ plane = … }}"));
     const geometry::Triangulation made = geometry::triangulate(outline.flat, outline.loops,
                                                                {.interior_points = false}, context);
     ModelBuilder builder(std::move(model));
