@@ -13,7 +13,7 @@
 //   flat faces in free loops                flat_fill.cpp, split_loop.cpp, touching_faces.cpp
 //   missing round and straight walls        round_walls.cpp, straight_walls.cpp; part of one: round_patch.cpp
 //   holes in ends; ends of walls alone      end_holes.cpp, class_five.cpp
-//   whether a closing is ambiguous          guesses.cpp, membranes.cpp
+//   whether a closing is ambiguous          guesses.cpp, hole_guesses.cpp, membranes.cpp
 //   void faces that cross other faces       sealing.cpp
 //   voids of faces without roles            readings.cpp, sealed_voids.cpp
 //   error if no roles are found             no_roles.cpp

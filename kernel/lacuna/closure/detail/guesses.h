@@ -23,6 +23,9 @@ namespace lacuna::closure {
 /// at most 2 %.
 std::optional<Message> guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
 
+/// The given face with a hole that a void face closes in its plane, if there is one.
+std::optional<FaceId> face_round_hole(const topology::Model& model, FaceId filler);
+
 /// A face of `model` with a hole that was closed in the face's plane, while an end that does not touch the
 /// face is missing too. The hole may extend to that end. Invalid if there is no such face, or if the normals
 /// of the given faces point into the void, as in a counterbore.
