@@ -171,6 +171,17 @@ do
   check.that(not is_noted "{ tolerance = 1e-3 }")
 end
 
+-- The tolerance of a coarse file does not swallow the cells of a fine one.
+do
+  local fine, coarse = params.scratch .. "/fine.inp", params.scratch .. "/coarse_cells.inp"
+  deck(fine, voids.steps, function(x, y, z) return x / 1000, y / 1000, z / 1000 end, 12)
+  deck(coarse, voids.steps, function(x, y, z) return 1000 + 10 * x, 10 * y, 10 * z end, 12)
+  for _, files in ipairs { { fine, coarse }, { coarse, fine } } do
+    local model = lacuna.load(files)
+    check.that(model.tolerance <= 1.001e-6 * model.diagonal, model.tolerance)
+  end
+end
+
 -- Numbers with a unit as large as the cells merge no nodes: the tolerance is at most a hundredth of a side.
 do
   local path = params.scratch .. "/coarse.inp"

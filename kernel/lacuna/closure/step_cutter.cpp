@@ -284,7 +284,6 @@ private:
             face.triangles.clear();
             face.uv.clear();
             face.given_quads.clear();
-            face.keeps_nodes = false;
             const auto first_made = static_cast<Index>(builder_.points.size());
             VoidFilling filling = filling_of(builder_, outline, *made, [&](std::size_t p) {
                 const std::optional<Hit> hit = above(geometry::from_plane(across_, made->points[p], lowest()),

@@ -93,8 +93,8 @@ void check_known_faces(const std::vector<Part>& all)
         if constexpr (std::is_same_v<std::decay_t<decltype(face)>, std::string>)
             nearest = nearest_face_name(all, face, of);
         if (nearest.empty()) throw InvalidInput(std::move(message).remedy("volume:tree() lists faces"));
-        throw InvalidInput(
-            std::move(message).remedy("the nearest is \"{}\"; \"walls\" names all walls", nearest));
+        throw InvalidInput(std::move(message).remedy(
+            "the nearest is \"{}\"{}", nearest, option == "periodic" ? "" : "; \"walls\" names all walls"));
     };
     for (const Part& one : all) {
         if (one.asked == nullptr) continue;

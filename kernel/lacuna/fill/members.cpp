@@ -63,15 +63,12 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
 bool is_block(const closure::StepPiece& piece)
 {
     const topology::Model& model = piece.volume.model;
-    const auto is_straight = [&](const topology::Edge& edge) {
-        const Vec3 chord = model.at(edge.points.back()) - model.at(edge.points.front());
-        return std::ranges::all_of(edge.points, [&](Index p) {
-            return (model.at(p) - model.at(edge.points.front())).cross(chord).norm() <=
-                   model.tolerance * chord.norm();
-        });
-    };
-    return model.faces.size() == 6 && std::ranges::all_of(model.edges, is_straight) &&
-           std::ranges::all_of(model.faces, [](const topology::Face& face) {
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::vector<Index>& points = model.edges[e].points;
+        const double chord = (model.at(points.back()) - model.at(points.front())).norm();
+        if (topology::edge_length(model, EdgeId(e)) > chord + model.tolerance) return false;
+    }
+    return model.faces.size() == 6 && std::ranges::all_of(model.faces, [](const topology::Face& face) {
                return face.loops.size() == 1 && face.loops.front().uses.size() == 4 &&
                       face.given_quads.empty();
            });

@@ -359,9 +359,9 @@ std::optional<Opening> without_overhangs(const Model& whole, const RoleRequest& 
         std::ranges::copy(trimmed->gone, std::back_inserter(lost));
         auto shorter = opening_of(now, model, std::move(*trimmed));
         if (!shorter) return opening;
-        log_line(context,
-                 formatted("note: cut off in the plane of the rim of {}: {} [closure.cut_off]",
-                           topology::entity_of(model, found->beside), topology::entities_of(model, lost)));
+        const Message note("closure.cut_off", "cut off in the plane of the rim of {}: {}",
+                           topology::entity_of(model, found->beside), topology::entities_of(model, lost));
+        log_line(context, formatted("note: {} [{}]", note.text(), note.code()));
         opening = std::move(shorter);
     }
 }

@@ -89,6 +89,9 @@ void append(FacetFile& all, FacetFile more)
     };
     shift(more.soup.triangles, more.soup.triangle_label);
     shift(more.soup.quads, more.soup.quad_label);
+    // The tolerance of a coarse file would swallow the details of a fine one.
+    all.soup.least_tolerance = points == 0 ? more.soup.least_tolerance
+                                           : std::min(all.soup.least_tolerance, more.soup.least_tolerance);
     move_in(all.soup.points, more.soup.points);
     move_in(all.soup.triangles, more.soup.triangles);
     move_in(all.soup.triangle_label, more.soup.triangle_label);
@@ -99,7 +102,6 @@ void append(FacetFile& all, FacetFile more)
     move_in(all.label_tag, more.label_tag);
     move_in(all.labels, more.labels);
     move_in(all.notes, more.notes);
-    all.soup.least_tolerance = std::max(all.soup.least_tolerance, more.soup.least_tolerance);
 }
 
 /// A model with the entities of `first`, followed by those of `second`. Tags of faces, edges and vertices of
