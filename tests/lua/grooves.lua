@@ -80,4 +80,22 @@ BooleanDifference(5) = { Volume{1}; Delete; }{ Volume{2:4}; Delete; };]]):format
   check.near(quality.volume, volume, 0.01 * volume)
   check.that(quality.min_scaled_jacobian > 0.6, quality.min_scaled_jacobian)
 end
+
+-- The ring below the rounds of a shallow groove: cells that are improved together with those of the other
+-- half of the turn do not leave the rounds.
+do
+  local model, faces = faces_of([[
+Point(1) = {0, 0, -9}; Point(2) = {25, 0, -9}; Point(3) = {25, 0, -4.5}; Point(4) = {22, 0, -4.5};
+Point(5) = {22, 0, -3.5}; Point(6) = {21, 0, -3.5}; Point(7) = {21, 0, 3.5}; Point(8) = {22, 0, 3.5};
+Point(9) = {22, 0, 4.5}; Point(10) = {25, 0, 4.5}; Point(11) = {25, 0, 9}; Point(12) = {0, 0, 9};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Circle(4) = {4, 5, 6}; Line(5) = {6, 7};
+Circle(6) = {7, 8, 9}; Line(7) = {9, 10}; Line(8) = {10, 11}; Line(9) = {11, 12}; Line(10) = {12, 1};
+Curve Loop(1) = {1:10}; Plane Surface(1) = {1};
+Extrude { {0, 0, 1}, {0, 0, 0}, 2 * Pi } { Surface{1}; }]], function(face)
+    return face.kind == "torus" or face.kind == "cylinder" and face.radius < 21.5
+  end)
+  check.equal(#faces, 3)
+  local fidelity = model:open_volume({ faces = faces, full_turn = true }):sweep({ size = 1 }).fidelity
+  check.near(fidelity.volume, fidelity.sealed_volume, 0.011 * fidelity.sealed_volume)
+end
 check.done()

@@ -96,7 +96,9 @@ public:
         }
         number_nodes(result_);
         if (periodic_.empty()) improve_across();
-        note_poor_cells();
+        for (std::size_t m = 0; m < members_.size(); ++m)
+            if (members_[m].fixed == nullptr)
+                note_faults(result_.parts[m], *members_[m].volume, members_[m].options);
         sweep::pair_nodes(images(), result_, context_);
         check_no_hanging_nodes(result_, members_);
         name_groups(result_, members_);
@@ -324,16 +326,6 @@ private:
                 }
                 keep_middles(m, parts[m]);
             }
-    }
-
-    void note_poor_cells()
-    {
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            Swept& part = result_.parts[m];
-            if (members_[m].fixed != nullptr || part.min_scaled_jacobian >= kPoorCell) continue;
-            part.notes.push_back(poor_in_words(part.min_scaled_jacobian));
-            part.report.push_back("note: " + part.notes.back());
-        }
     }
 
     void note_order(const std::vector<std::size_t>& order)

@@ -10,9 +10,11 @@
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/cell_region.h>
 #include <lacuna/sweep/detail/compare_face.h>
+#include <lacuna/sweep/detail/volume_share.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <span>
 #include <utility>
@@ -137,8 +139,10 @@ public:
             const quality::Proof proof = quality::prove(part.mesh, members_[p].options.min_scaled_jacobian,
                                                         context_);
             if (proof.finding) return std::nullopt;
+            const double lost = std::abs(volume_lost(part.fidelity));
             part.quality = proof.quality;
             part.fidelity.volume = proof.quality.volume;
+            if (std::abs(volume_lost(part.fidelity)) > std::max(lost, kSameVolume)) return std::nullopt;
             part.min_scaled_jacobian = proof.quality.min_scaled_jacobian;
         }
         if (least_of(result.parts) < least_of(assembly_.parts) || !compare_again(result.parts, moved))

@@ -19,6 +19,7 @@
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/sweep_between.h>
 #include <lacuna/sweep/detail/volume_share.h>
+#include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/shared/layer_plan.h>
 
 #include <algorithm>
@@ -232,32 +233,6 @@ Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunConte
     return Search(volume, options, links, context).run(plans(volume, options, links, context));
 }
 
-/// Report the volume difference, and the 'size' and 'layers' that should keep it within 1 %. The error of
-/// straight sides grows with the square of their length. The suggestion aims at half of the limit, because on
-/// bends and barrels the actual error was up to 1.6 times the estimate. A size does not change quads that are
-/// kept.
-std::string volume_in_words(const Swept& swept, const OpenVolume& volume, const SweepOptions& options)
-{
-    const double lost = volume_lost(swept.fidelity), part = std::sqrt(kSameVolume / 2 / std::abs(lost));
-    double length = 0;
-    for (const Segment& side : swept.mesh.rim)
-        length += (swept.mesh.nodes[index(side[1])] - swept.mesh.nodes[index(side[0])]).norm();
-    const bool keeps = (options.quads == Quads::automatic || options.quads == Quads::keep) &&
-                       std::ranges::any_of(volume.faces(Role::source), [&](FaceId face) {
-                           const topology::Face& own = volume.model[face];
-                           return own.keeps_nodes && topology::has_cells_to_keep(own, options.wedges);
-                       });
-    return formatted(
-        "the mesh has {:.2g} % {} volume than the sealed shape; {}size = {:.2g} and layers = {} should keep "
-        "the difference within 1 %{}",
-        100 * std::abs(lost), lost > 0 ? "less" : "more", keeps ? "quads = \"paved\", " : "",
-        part * length / static_cast<double>(swept.mesh.rim.size()),
-        static_cast<int>(std::ceil(swept.mesh.layers / part)),
-        keeps ? ", or the layers alone if the bends are along the sweep: the given quads of the source are "
-                "kept, whatever the size"
-              : "");
-}
-
 } // namespace
 
 Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
@@ -265,10 +240,6 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     SweepOptions options = asked;
     options.improving = with_shared_limits(options.improving);
     Swept swept = search(volume, options, context);
-    if (!asked.beside.settle && swept.min_scaled_jacobian < kPoorCell)
-        swept.notes.push_back(poor_in_words(swept.min_scaled_jacobian));
-    if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted)
-        swept.notes.push_back(volume_in_words(swept, volume, options));
     for (const FaceId face : volume.faces(Role::wall))
         if (const auto wall = matching::continued_wall(volume.model, face))
             swept.notes.push_back(
@@ -276,6 +247,7 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
                           entity_of(volume.model, *wall), entity_of(volume.model, face)));
     for (const std::string& note : swept.notes) swept.report.push_back("note: " + note);
     if (asked.beside.settle) return swept;
+    note_faults(swept, volume, options);
     for (const std::string& line : swept.defaults) log_line(context, line);
     for (const std::string& note : swept.notes) log_line(context, "note: " + note);
     return swept;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/types.h>
+#include <lacuna/sweep/sweep.h>
 
 #include <string>
 
@@ -11,8 +12,9 @@ namespace lacuna::sweep {
 /// A position as text, in numbers of two significant digits: "(1.2, 0, 3)".
 std::string place_in_short(const Vec3& p);
 
-/// A note on poor cells, with suggestions.
-std::string poor_in_words(double least);
+/// Add to a swept volume's notes and report that its cells are poor, or that its volume is not that of the
+/// sealed shape.
+void note_faults(Swept& swept, const topology::OpenVolume& volume, const SweepOptions& options);
 
 /// Sizes are suggested a tenth smaller than an estimate requires, because side lengths vary.
 inline constexpr double kSuggestedShare = 0.9;
