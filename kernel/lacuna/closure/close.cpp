@@ -313,8 +313,8 @@ private:
             throw NotClosed(Message("closure.faces_cross", "{} of the closing would cross {}",
                                     entity_of(sealed.model, crossing->first),
                                     entity_of(sealed.model, crossing->second))
-                                .remedy("give the missing face there, or close with another 'edge_shape', "
-                                        "'cap' or 'void_edges'"));
+                                .remedy("give the missing face there, close with another 'edge_shape', 'cap' "
+                                        "or 'void_edges', or pair other loops with match{{ loops = … }}"));
         }
         prove_sealed(sealed);
         closure.watertight = true;

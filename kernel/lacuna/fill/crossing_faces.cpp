@@ -12,7 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace lacuna::fill {
@@ -41,8 +42,28 @@ bool share_a_point(const Triangle& a, const Triangle& b)
     return std::ranges::any_of(a, [&](Index p) { return std::ranges::find(b, p) != b.end(); });
 }
 
+/// Whether two facets lie on each other over an area: shrunk ones, too, touch.
+bool touch_over_area(const Corners& one, const Corners& other, double tolerance)
+{
+    const auto shrunk = [](const Corners& facet) {
+        const Vec3 middle = (facet[0] + facet[1] + facet[2]) / 3;
+        Corners inner = facet;
+        for (Vec3& p : inner) p += kAlikeSizes * (middle - p);
+        return inner;
+    };
+    const auto reaches = [&](const Corners& inner, const Corners& facet) {
+        return std::ranges::any_of(inner, [&](const Vec3& p) {
+            return geometry::closest_on_triangle(p, facet).distance2 <= tolerance * tolerance;
+        });
+    };
+    const Vec3 m = (one[1] - one[0]).cross(one[2] - one[0]),
+               n = (other[1] - other[0]).cross(other[2] - other[0]);
+    return m.cross(n).norm() <= kParallel * m.norm() * n.norm() &&
+           (reaches(shrunk(one), shrunk(other)) || reaches(shrunk(other), shrunk(one)));
+}
+
 /// The message that two parts touch along a line or at a point, where the volume between them has no
-/// thickness. Parts in contact over an area have a common rim, so they are one part here.
+/// thickness. Empty also for parts that touch over an area.
 std::optional<Message> touching_faces(const Model& model, const std::vector<Triangle>& facets,
                                       const std::vector<FaceId>& face_of, const std::vector<double>& sag,
                                       const std::vector<std::optional<RoundShape>>& round,
@@ -71,20 +92,36 @@ std::optional<Message> touching_faces(const Model& model, const std::vector<Tria
                              is_near(p, mine, model.tolerance + sag[face.index()]);
         return touches ? std::optional(p) : std::nullopt;
     };
-    std::optional<std::tuple<Index, Index, Vec3>> first;
+    struct Touch {
+        std::pair<Index, Index> facets;
+        Vec3 place;
+    };
+    std::map<std::pair<std::size_t, std::size_t>, std::optional<Touch>> touches; // of two parts; empty: areas
     tree.overlaps(
         tree,
         [&](Index a, Index b) {
-            if (part_of[face_of[index(a)].index()] == part_of[face_of[index(b)].index()] ||
-                (first && std::pair(a, b) > std::pair(std::get<0>(*first), std::get<1>(*first))))
+            const auto both = std::minmax(part_of[face_of[index(a)].index()],
+                                          part_of[face_of[index(b)].index()]);
+            if (both.first == both.second) return true;
+            const auto known = touches.find(both);
+            if (known != touches.end() && !known->second) return true;
+            if (touch_over_area(corners_of(model, facets[index(a)]), corners_of(model, facets[index(b)]),
+                                model.tolerance)) {
+                touches[both].reset();
                 return true;
+            }
+            if (known != touches.end() && known->second->facets < std::pair(a, b)) return true;
             for (const auto& [s, t] : {std::pair(a, b), std::pair(b, a)})
-                if (const auto place = touch(s, t)) first.emplace(a, b, *place);
+                if (const auto place = touch(s, t)) touches[both] = Touch{{a, b}, *place};
             return true;
         },
         model.tolerance + *std::ranges::max_element(sag), context);
+    std::optional<Touch> first;
+    for (const auto& [both, found] : touches)
+        if (found && (!first || found->facets < first->facets)) first = found;
     if (!first) return std::nullopt;
-    const auto& [a, b, place] = *first;
+    const auto& [pair, place] = *first;
+    const auto& [a, b] = pair;
     return Message(
                "topology.faces_touch",
                "{} and {} touch near ({:.4g}, {:.4g}, {:.4g}) along a line or at a point, where the volume "

@@ -42,7 +42,7 @@ void report_closure(const Volume& volume, std::vector<std::string>& report, cons
     if (volume.match && !volume.closure->void_edges.empty()) {
         for (const Message& note : volume.match->notes) {
             report.push_back("match: " + note.text());
-            if (context.log) context.log(report.back());
+            log_line(context, "note: " + note.text());
         }
     }
     for (const Message& note : volume.closure->notes) report.push_back("closed: " + note.text());
@@ -377,6 +377,7 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
         if (auto filled = fill_joined(volume, request, context)) return filled;
     Filled filled;
     if (auto mesh = mesher.best()) {
+        report_closure(sealed, mesh->swept.report, closing);
         filled.mesh = std::move(*mesh);
     } else if (mixed) {
         if (!sealed.no_roles) sealed.no_roles = why;
@@ -465,12 +466,12 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
     const bool mixed = asked.options.fallback == sweep::Fallback::mixed;
     if (mixed) request.options.fallback = sweep::Fallback::none;
     const bool cuts = may_cut(volume, mixed);
-    bool told = volume.closure.has_value(); // whether a sweep has logged what closing the volume assumes
+    bool told = volume.told; // whether what closing the volume assumes has been logged
     for (std::size_t next = 0;; ++next) {
         const Volume& now = other ? *other : volume;
         const bool pieces = has_pieces(now, context);
         const bool told_before = told;
-        told = told || !pieces;
+        told = told || !pieces || now.closure;
         const auto note_failure = [&](const Error& error) {
             if (!first) first = std::current_exception();
             if (!why) why = error.message();

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -31,6 +32,15 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
+
+/// Linear interpolation between values at increasing positions that begin with the least.
+double between(const std::vector<double>& at, const std::vector<double>& values, double x)
+{
+    const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, x);
+    const auto i = static_cast<std::size_t>(above - at.begin());
+    const double f = std::clamp((x - at[i - 1]) / (at[i] - at[i - 1]), 0.0, 1.0);
+    return values[i - 1] + f * (values[i] - values[i - 1]);
+}
 
 /// A path from rim to rim, along which the walls are cut open.
 struct WayUp {
@@ -83,6 +93,69 @@ geometry::HarmonicValues natural_coordinate(const Model& model, const std::vecto
     problem.period = Eigen::RowVectorXd::Ones(1);
     problem.least_energy = true;
     return geometry::solve_on_facets(problem, context);
+}
+
+/// The points of a side line, the shares of its length at which they lie, and their coordinates t.
+struct LineHeights {
+    std::vector<Vec3> points;
+    std::vector<double> shares, heights;
+};
+
+/// How oblique the lines between neighbouring side lines are: the mean square of the cosines of their angles
+/// with the side lines, over lines at even steps.
+/// @param steps  for each side line, where each point lies: its shares, or its t.
+double obliqueness(const std::vector<LineHeights>& lines, std::vector<double> LineHeights::*steps)
+{
+    const auto at = [&](const LineHeights& line, int k) {
+        std::array<double, 3> place{};
+        const double step = static_cast<double>(k) / kFineChords;
+        for (Eigen::Index i = 0; i < 3; ++i) {
+            std::vector<double> along;
+            for (const Vec3& p : line.points) along.push_back(p[i]);
+            place[static_cast<std::size_t>(i)] = between(line.*steps, along, step);
+        }
+        return Vec3(place[0], place[1], place[2]);
+    };
+    double sum = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        for (int k = 1; k < kFineChords; ++k) {
+            const LineHeights &one = lines[i], &next = lines[(i + 1) % lines.size()];
+            const Vec3 across = (at(next, k) - at(one, k)).stableNormalized();
+            for (const LineHeights* line : {&one, &next})
+                sum += std::pow(across.dot((at(*line, k + 1) - at(*line, k - 1)).stableNormalized()), 2);
+        }
+    return sum / static_cast<double>(2 * lines.size() * (kFineChords - 1));
+}
+
+/// The harmonic coordinate t on each side line, with fixed values on the rims only. Empty if shares of the
+/// lines' length are as good: layers at even shares then meet the lines at angles as close to 90 degrees.
+std::vector<LineHeights> natural_heights(const Model& model, const std::vector<Triangle>& facets,
+                                         const LinkingSurface& link, const RunContext& context)
+{
+    if (!link.straight_across || link.lines.size() < 2 || runs_straight(model, link)) return {};
+    geometry::HarmonicProblem problem;
+    problem.points = model.points;
+    problem.triangles = facets;
+    std::map<Index, double> fixed;
+    for (const ChainNode& p : chain_nodes(model, link.source)) fixed[p.point] = 0;
+    for (const ChainNode& p : chain_nodes(model, link.target)) fixed[p.point] = 1;
+    problem.fix(fixed);
+    const geometry::HarmonicValues values = geometry::solve_on_facets(problem, context);
+    std::vector<LineHeights> lines;
+    for (const LinkingLine& line : link.lines) {
+        auto& [points, shares, heights] = lines.emplace_back();
+        for (const Index p : use_points(model, line.line.uses)) {
+            points.push_back(model.at(p));
+            heights.push_back(values.at(p)[0]);
+        }
+        if (std::ranges::adjacent_find(heights, std::greater_equal{}) != heights.end()) return {};
+        shares = geometry::arc_lengths(points);
+        for (double& share : shares) share /= shares.back();
+    }
+    const double natural = obliqueness(lines, &LineHeights::heights);
+    const double even = obliqueness(lines, &LineHeights::shares);
+    if (!(natural < even - kVisible)) lines.clear();
+    return lines;
 }
 
 Vec3 on_facets(const Model& model, const WallPosition& place)
@@ -193,10 +266,15 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         const double turned = s - std::floor(s - end_branch + kRoundoff);
         fixed[p.point] = Vec2(p.point == cut.points.back() ? end_branch : turned, 1);
     }
-    for (const Crease& line : upright) {
-        const std::vector<double> at = geometry::arc_lengths(places_at(model, line.points));
+    for (LineHeights& line : natural_heights(model, facets, link, context))
+        lines_.emplace_back(std::move(line.shares), std::move(line.heights));
+    for (std::size_t u = 0; u < upright.size(); ++u) {
+        const Crease& line = upright[u];
+        std::vector<double> at = geometry::arc_lengths(places_at(model, line.points));
+        for (double& share : at) share /= at.back();
+        if (!lines_.empty()) at = lines_[u].second;
         for (std::size_t i = 0; i < line.points.size(); ++i)
-            fixed[line.points[i]] = Vec2(line.source_at / link.source.length(), at[i] / at.back());
+            fixed[line.points[i]] = Vec2(line.source_at / link.source.length(), at[i]);
     }
 
     geometry::HarmonicProblem problem;
@@ -240,7 +318,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     tree_ = geometry::FacetTree(flat_, flat_triangles, context);
     check_cancelled(context);
 
-    if (upright.empty()) measure_heights(model);
+    if (upright.empty() || !lines_.empty()) measure_heights(model);
     const bool creased = upright.size() > link.lines.size(); // columns then follow the creases
     if (!creased && !runs_straight(model, link)) measure_columns(model, link, context);
     find_rings(volume, link, corners, void_edges);
@@ -281,6 +359,18 @@ double LinkingMap::from_even(double height) const
     const auto k = static_cast<double>(above - even_.begin() - 1);
     const double low = *(above - 1), high = *above;
     return high > low ? std::clamp((k + (height - low) / (high - low)) / steps, 0.0, 1.0) : k / steps;
+}
+
+double LinkingMap::to_even(double t) const { return even_.empty() ? t : value_at(even_, t); }
+
+double LinkingMap::on_line(std::size_t line, double share) const
+{
+    return lines_.empty() ? share : between(lines_[line].first, lines_[line].second, share);
+}
+
+double LinkingMap::share_of_line(std::size_t line, double t) const
+{
+    return lines_.empty() ? t : between(lines_[line].second, lines_[line].first, t);
 }
 
 void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link, const RunContext& context)

@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/transfinite.h>
+#include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/shared/fill_face.h>
@@ -13,6 +14,7 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -51,7 +53,7 @@ public:
             if (seeds_.kept.contains(face))
                 keep(face);
             else if (corners != seeds_.corners.end())
-                map(face, corners->second);
+                map_or_fill(face, corners->second);
             else if (seeds_.tubes.contains(face))
                 map_tube(face);
             else
@@ -211,6 +213,46 @@ private:
                 result_.quads.quads.push_back(
                     {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
         }
+    }
+
+    /// Mesh a mapped face. A flat one that winds, so that its grid is poor, is filled instead if that is
+    /// better.
+    void map_or_fill(FaceId face, const std::vector<std::size_t>& corners)
+    {
+        mesh::QuadMesh& mesh = result_.quads;
+        const auto nodes = std::ssize(mesh.nodes), quads = std::ssize(mesh.quads);
+        map(face, corners);
+        if (model_[face].kind != "plane" || !mesher_ || !seeds_.rows.empty()) return;
+        const double mapped = least_of(face, quads);
+        if (!(mapped < kPoorCell)) return;
+        const std::vector<Vec3> grid_nodes(mesh.nodes.begin() + nodes, mesh.nodes.end());
+        const std::vector<Quad> grid(mesh.quads.begin() + quads, mesh.quads.end());
+        mesh.nodes.resize(static_cast<std::size_t>(nodes));
+        mesh.quads.resize(static_cast<std::size_t>(quads));
+        fill(face);
+        if (least_of(face, quads) > mapped) return;
+        mesh.nodes.resize(static_cast<std::size_t>(nodes));
+        mesh.quads.resize(static_cast<std::size_t>(quads));
+        mesh.nodes.insert(mesh.nodes.end(), grid_nodes.begin(), grid_nodes.end());
+        mesh.quads.insert(mesh.quads.end(), grid.begin(), grid.end());
+        how_ = "mapped";
+    }
+
+    /// The least scaled Jacobian of the quads from the given one on, seen along the normal of their face.
+    [[nodiscard]] double least_of(FaceId face, std::ptrdiff_t first) const
+    {
+        const Vec3 normal = face_area_vector(model_, face).stableNormalized(), u = normal.unitOrthogonal(),
+                   v = normal.cross(u);
+        double least = 1;
+        for (auto quad = result_.quads.quads.begin() + first; quad != result_.quads.quads.end(); ++quad) {
+            std::array<Vec2, 4> corners;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Vec3& p = result_.quads.nodes[index((*quad)[k])];
+                corners[k] = Vec2(p.dot(u), p.dot(v));
+            }
+            least = std::min(least, quads::scaled_jacobian(corners, {0, 1, 2, 3}));
+        }
+        return least;
     }
 
     /// The nodes of a closed chain of edges, and their running lengths.

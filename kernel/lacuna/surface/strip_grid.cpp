@@ -61,8 +61,9 @@ private:
         for (std::size_t r = 0; r < count; ++r) {
             int nearest = 1, lowest = 1;
             for (int k = 1; k < layers; ++k) {
-                if (std::abs(heights[static_cast<std::size_t>(k)] - net_.levels[r].height) <
-                    std::abs(heights[static_cast<std::size_t>(nearest)] - net_.levels[r].height))
+                const double height = map_->to_even(net_.levels[r].height);
+                if (std::abs(heights[static_cast<std::size_t>(k)] - height) <
+                    std::abs(heights[static_cast<std::size_t>(nearest)] - height))
                     nearest = k;
             }
             for (const std::size_t a : below[r]) lowest = std::max(lowest, level_layer_[a] + 1);
@@ -70,36 +71,28 @@ private:
         }
     }
 
-    /// Heights of a column's nodes: the heights of the layers, but with the given heights at some layers, and
-    /// linear interpolation between these.
+    /// The t of a column's nodes: that of the layers, but with the given t at some layers, and linear
+    /// interpolation between these.
     /// @param at_layer  for each layer whose ring crosses the column: the t of the crossing.
     [[nodiscard]] std::vector<double> column_heights(const std::map<int, double>& at_layer) const
     {
+        const auto t_of = [&](double height) { return map_ != nullptr ? map_->from_even(height) : height; };
         std::vector<std::pair<double, double>> knots{{0, 0}};
         for (const auto& [layer, t] : at_layer) {
             if (t > knots.back().second && t < 1)
-                knots.emplace_back(heights[static_cast<std::size_t>(layer)], t);
+                knots.emplace_back(t_of(heights[static_cast<std::size_t>(layer)]), t);
         }
         knots.emplace_back(1, 1);
         std::vector<double> result;
         std::size_t k = 0;
-        for (const double h : heights) {
+        for (const double height : heights) {
+            const double h = t_of(height);
             while (k + 2 < knots.size() && h > knots[k + 1].first) ++k;
             const auto& [h0, t0] = knots[k];
             const auto& [h1, t1] = knots[k + 1];
             result.push_back(t0 + (h - h0) / (h1 - h0) * (t1 - t0));
         }
         return result;
-    }
-
-    /// As `column_heights()`. But if no ring crosses the column, the heights are shares of the walls' length
-    /// and are converted to the map's coordinate t.
-    [[nodiscard]] std::vector<double> map_heights(const std::map<int, double>& at_layer) const
-    {
-        std::vector<double> at = column_heights(at_layer);
-        if (!at_layer.empty()) return at;
-        for (double& t : at) t = map_->from_even(t);
-        return at;
     }
 
     /// The crossings of a column with plain rings, by the layer of each ring.
@@ -118,15 +111,19 @@ private:
         return at_layer;
     }
 
-    /// Heights of the nodes of a side line. If its edges are kept, these are the heights of their nodes.
-    /// Otherwise they are the heights of the layers, shifted to the plain rings that meet the line.
-    [[nodiscard]] std::vector<double> line_heights(const Chain& chain) const
+    /// The t of the nodes of a side line. If its edges are kept, these are those of their nodes. Otherwise
+    /// they are those of the layers, shifted to the plain rings that meet the line.
+    [[nodiscard]] std::vector<double> line_heights(std::size_t line) const
     {
+        const Chain chain(model, link.lines[line].line.uses);
+        const auto on_line = [&](double share) {
+            return map_ != nullptr ? map_->on_line(line, share) : share;
+        };
         if (chain.uses().size() > 1 && std::ranges::all_of(chain.uses(), [&](const EdgeUse& use) {
                 return model[use.edge].keeps_nodes;
             })) {
             std::vector<double> kept = geometry::arc_lengths(use_places(model, chain.uses()));
-            for (double& at : kept) at /= kept.back();
+            for (double& at : kept) at = on_line(at / kept.back());
             if (kept.size() == layers_ + 1) return kept;
         }
         std::map<int, double> at_layer;
@@ -136,7 +133,7 @@ private:
                 if (!net_.levels[r].plain) continue;
                 const auto& vertices = map_->rings()[*net_.levels[r].ring].vertices;
                 if (std::ranges::find(vertices, v) != vertices.end())
-                    at_layer[level_layer_[r]] = chain.start(u) / chain.length();
+                    at_layer[level_layer_[r]] = on_line(chain.start(u) / chain.length());
             }
         }
         return column_heights(at_layer);
@@ -150,8 +147,7 @@ private:
             std::vector<double> at(heights.begin(), heights.end());
             const double s = nodes.source_at[i] / link.source.length();
             if (line_of[i] >= 0) {
-                const LinkingLine& line = link.lines[static_cast<std::size_t>(line_of[i])];
-                at = line_heights(Chain(model, line.line.uses));
+                at = line_heights(static_cast<std::size_t>(line_of[i]));
             } else if (map_ != nullptr) {
                 std::map<int, double> at_layer;
                 for (const auto& [layer, crossing] : crossings_at(s)) {
@@ -159,7 +155,7 @@ private:
                     laid_.on_edge[static_cast<std::size_t>(layer) * count_ + i] = {crossing.edge, crossing.at,
                                                                                    Vec2(s, crossing.t)};
                 }
-                at = map_heights(at_layer);
+                at = column_heights(at_layer);
             }
             for (std::size_t k = 0; k <= layers_; ++k) laid_.place[k * count_ + i] = Vec2(s, at[k]);
         }

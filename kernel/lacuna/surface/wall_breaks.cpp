@@ -192,7 +192,8 @@ std::map<EdgeId, double> heights_around(const OpenVolume& volume, const LinkingS
     if (link.walls.size() <= std::max<std::size_t>(1, link.lines.size())) return heights;
     const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
     for (const LinkingMap::Ring& ring : map->rings())
-        for (const LinkingMap::Piece& piece : ring.pieces) heights.emplace(piece.edge, ring.height);
+        for (const LinkingMap::Piece& piece : ring.pieces)
+            heights.emplace(piece.edge, map->to_even(ring.height));
     return heights;
 }
 

@@ -63,10 +63,15 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
                                             const RunContext& context)
 {
     std::vector<std::vector<Vec3>> columns;
-    for (const LinkingLine& line : link.lines) {
-        const Chain chain(volume.model, line.line.uses);
+    const bool bends = link.straight_across && !link.lines.empty() && !runs_straight(volume.model, link);
+    std::shared_ptr<const LinkingMap> map = bends ? map_of(volume, link, true, context) : nullptr;
+    for (std::size_t l = 0; l < link.lines.size(); ++l) {
+        const Chain chain(volume.model, link.lines[l].line.uses);
         std::vector<double> at;
-        for (int i = 0; i <= steps; ++i) at.push_back(chain.length() * i / steps);
+        for (int i = 0; i <= steps; ++i) {
+            const double share = static_cast<double>(i) / steps;
+            at.push_back(chain.length() * (map ? map->share_of_line(l, map->from_even(share)) : share));
+        }
         columns.push_back(chain.points(at));
     }
     if (!link.lines.empty()) return columns;
@@ -76,7 +81,7 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
         straight += (columns.back().back() - columns.back().front()).norm();
     }
     if (are_straight(volume.model, link, straight, columns.size())) return columns;
-    const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
+    map = map_of(volume, link, true, context);
     columns.clear();
     for (int k = 0; k < kChords; ++k) {
         std::vector<ColumnPlace> places;

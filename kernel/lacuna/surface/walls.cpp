@@ -107,7 +107,7 @@ private:
         }
         const bool simple = !panels.empty() &&
                             std::ranges::all_of(panels, [&](const auto& faces) { return is_simple(faces); });
-        if (!simple) {
+        if (!simple || (link_.straight_across && !runs_straight(model_, link_))) {
             map_ = map_of(volume_, link_, void_edges, context_);
             net_ = wall_net(model_, link_, *map_);
         }
@@ -209,9 +209,10 @@ private:
         for (std::size_t i = 0; i < link_.lines.size(); ++i) {
             const std::size_t node = nodes_.line[i];
             const Chain chain(model_, link_.lines[i].line.uses);
+            const auto share = [&](double t) { return map_ ? map_->share_of_line(i, t) : t; };
             std::vector<double> at;
             for (std::size_t k = 0; k <= layers_; ++k)
-                at.push_back(grid_.place[k * count_ + node].y() * chain.length());
+                at.push_back(share(grid_.place[k * count_ + node].y()) * chain.length());
             // A level that other walls or neighbours prescribed at a vertex of the line is known up to the
             // accuracy of their maps alone.
             for (std::size_t use = 1; use < chain.uses().size(); ++use) {

@@ -96,9 +96,13 @@ public:
         }
         number_nodes(result_);
         if (periodic_.empty()) improve_across();
-        for (std::size_t m = 0; m < members_.size(); ++m)
-            if (members_[m].fixed == nullptr)
-                note_faults(result_.parts[m], *members_[m].volume, members_[m].options);
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            if (members_[m].fixed != nullptr) continue;
+            note_poor_cells(result_.parts[m]);
+            if (members_[m].whole.empty())
+                note_lost_volume(result_.parts[m], *members_[m].volume, members_[m].options);
+        }
+        note_lost_wholes(result_, members_, context_);
         sweep::pair_nodes(images(), result_, context_);
         check_no_hanging_nodes(result_, members_);
         name_groups(result_, members_);
@@ -133,7 +137,7 @@ private:
         ExpectedCells all;
         for (const AssemblyMember& member : members_) {
             if (member.fixed != nullptr || member.unswept) continue;
-            KnownLinks links(*member.volume);
+            KnownLinks links(*member.volume, false);
             const ExpectedCells own = source_size(*member.volume, member.options, links, context_).expected;
             all.all += own.all;
             all.unasked += own.unasked;

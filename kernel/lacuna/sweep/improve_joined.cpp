@@ -10,13 +10,13 @@
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/cell_region.h>
 #include <lacuna/sweep/detail/compare_face.h>
-#include <lacuna/sweep/detail/volume_share.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -85,6 +85,26 @@ private:
     geometry::FacetTree tree_;
 };
 
+/// The volume of a mesh, and that of the sealed shape.
+struct WholeVolume {
+    double mesh = 0, sealed = 0;
+};
+
+/// The volumes of the wholes to which parts belong, by name and number: pieces of one volume may exchange
+/// volume, because the faces between them are cuts. The number is 0 for a volume in pieces.
+std::map<std::pair<std::string, std::size_t>, WholeVolume> whole_volumes(
+    const std::vector<Swept>& parts, std::span<const AssemblyMember> members)
+{
+    std::map<std::pair<std::string, std::size_t>, WholeVolume> wholes;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const std::string& whole = members[p].whole;
+        WholeVolume& sum = wholes[{whole.empty() ? members[p].region : whole, whole.empty() ? p + 1 : 0}];
+        sum.mesh += parts[p].fidelity.volume;
+        sum.sealed += parts[p].fidelity.sealed_volume;
+    }
+    return wholes;
+}
+
 double least_of(const std::vector<Swept>& parts)
 {
     return std::ranges::min_element(parts, {}, &Swept::min_scaled_jacobian)->min_scaled_jacobian;
@@ -139,18 +159,28 @@ public:
             const quality::Proof proof = quality::prove(part.mesh, members_[p].options.min_scaled_jacobian,
                                                         context_);
             if (proof.finding) return std::nullopt;
-            const double lost = std::abs(volume_lost(part.fidelity));
             part.quality = proof.quality;
             part.fidelity.volume = proof.quality.volume;
-            if (std::abs(volume_lost(part.fidelity)) > std::max(lost, kSameVolume)) return std::nullopt;
             part.min_scaled_jacobian = proof.quality.min_scaled_jacobian;
         }
-        if (least_of(result.parts) < least_of(assembly_.parts) || !compare_again(result.parts, moved))
+        if (least_of(result.parts) < least_of(assembly_.parts) || loses_volume(result.parts) ||
+            !compare_again(result.parts, moved))
             return std::nullopt;
         return result;
     }
 
 private:
+    /// Whether the volume of a whole differs visibly from the sealed one, and by more than before.
+    [[nodiscard]] bool loses_volume(const std::vector<Swept>& parts) const
+    {
+        const auto before = whole_volumes(assembly_.parts, members_);
+        return std::ranges::any_of(whole_volumes(parts, members_), [&](const auto& whole) {
+            const auto& [mesh, sealed] = whole.second;
+            return std::abs(mesh - sealed) >
+                   std::max(std::abs(before.at(whole.first).mesh - sealed), kSameVolume * sealed);
+        });
+    }
+
     [[nodiscard]] std::size_t number(std::size_t part, std::size_t node) const
     {
         return index(assembly_.numbering[part].of(static_cast<Index>(node)));
@@ -305,6 +335,19 @@ private:
 };
 
 } // namespace
+
+void note_lost_wholes(SweptAssembly& assembly, std::span<const AssemblyMember> members,
+                      const RunContext& context)
+{
+    for (const auto& [whole, volume] : whole_volumes(assembly.parts, members)) {
+        const double lost = 1 - volume.mesh / volume.sealed;
+        if (whole.second != 0 || std::abs(lost) <= kVolumeNoted) continue;
+        assembly.report.push_back(formatted("note: {}: the meshes of the pieces together have {:.2g} % {} "
+                                            "volume than the sealed shape; use a smaller 'size'",
+                                            whole.first, 100 * std::abs(lost), lost > 0 ? "less" : "more"));
+        log_line(context, assembly.report.back());
+    }
+}
 
 std::optional<JoinedCells> improve_joined(const SweptAssembly& assembly,
                                           std::span<const AssemblyMember> members,

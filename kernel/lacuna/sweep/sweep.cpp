@@ -222,7 +222,7 @@ Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunConte
         throw NotSweepable(Message("sweep.not_closed", "the volume is not sealed")
                                .remedy("close it first with volume:close()"));
     }
-    KnownLinks links(volume);
+    KnownLinks links(volume, !asked.beside.settle);
     SweepOptions options = with_layer_intervals(volume, asked, links, context);
     const surface::SizeField size = options.size ? surface::checked_size(options.size, "size")
                                                  : surface::even_size(surface::default_size(volume).length);
@@ -247,7 +247,8 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
                           entity_of(volume.model, *wall), entity_of(volume.model, face)));
     for (const std::string& note : swept.notes) swept.report.push_back("note: " + note);
     if (asked.beside.settle) return swept;
-    note_faults(swept, volume, options);
+    note_poor_cells(swept);
+    note_lost_volume(swept, volume, options);
     for (const std::string& line : swept.defaults) log_line(context, line);
     for (const std::string& note : swept.notes) log_line(context, "note: " + note);
     return swept;

@@ -16,6 +16,12 @@ using namespace topology;
 
 namespace {
 
+void add_note(Swept& swept, std::string note)
+{
+    swept.report.push_back("note: " + note);
+    swept.notes.push_back(std::move(note));
+}
+
 /// Report poor cells, with suggestions.
 std::string poor_in_words(double least)
 {
@@ -55,14 +61,15 @@ std::string volume_in_words(const Swept& swept, const OpenVolume& volume, const 
 
 std::string place_in_short(const Vec3& p) { return place_with_digits(p, 2); }
 
-void note_faults(Swept& swept, const OpenVolume& volume, const SweepOptions& options)
+void note_poor_cells(Swept& swept)
 {
-    const auto add = [&](std::string note) {
-        swept.report.push_back("note: " + note);
-        swept.notes.push_back(std::move(note));
-    };
-    if (swept.min_scaled_jacobian < kPoorCell) add(poor_in_words(swept.min_scaled_jacobian));
-    if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted) add(volume_in_words(swept, volume, options));
+    if (swept.min_scaled_jacobian < kPoorCell) add_note(swept, poor_in_words(swept.min_scaled_jacobian));
+}
+
+void note_lost_volume(Swept& swept, const OpenVolume& volume, const SweepOptions& options)
+{
+    if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted)
+        add_note(swept, volume_in_words(swept, volume, options));
 }
 
 } // namespace lacuna::sweep

@@ -198,7 +198,9 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
         const EdgeId edge = sheets.taken_edge(choice, s);
         for (const FaceId face : faces) left.emplace(face, edge);
     }
-    std::sort(result.walls.begin(), result.walls.end());
+    // Rims of two sources may take the same sheet.
+    std::ranges::sort(result.walls);
+    result.walls.erase(std::ranges::unique(result.walls).begin(), result.walls.end());
     for (const auto& [face, edge] : left) {
         result.left_out.push_back(face);
         result.taken.push_back(edge);

@@ -33,8 +33,9 @@ void borrow_normals(const Facets& facets, const FacetSides& sides, std::vector<I
                     std::vector<Vec3>& normal, const RunContext& context);
 
 /// Whether the surface is rough next to many of its creases, as in a noisy scan, and creases also lie where
-/// they separate no two faces of at least kPatch facets. A clean surface is smooth on both sides of a crease;
-/// on a sawn bone with little noise, all creases separate faces.
+/// they separate no two faces of at least kPatch facets, and neighbouring points do not stand out alike. A
+/// clean surface is smooth on both sides of a crease; on a sawn bone with little noise, all creases separate
+/// faces; points of coarse facets on a bent tube stand out alike.
 /// @param face  by facet: the face that it belongs to, by its own normals.
 /// @param flipped  by facet: whether it is oriented against its face.
 /// @param feature  smallest turn of a crease [radians].

@@ -31,8 +31,10 @@ std::vector<Vec3> points_at(const topology::Model& model, std::span<const WallPo
 /// periodic. The coordinate t increases from 0 on the source rim to 1 on the target rim.
 ///
 /// At first both coordinates are harmonic functions (mean value weights). The segments prescribe their values
-/// on the rims. On each side line, s is constant, and t is the share of the line's length. The map is one to
-/// one (Tutte) for any arrangement of wall faces: stacked, side by side, or with seams that do not line up.
+/// on the rims. On each side line, s is constant, and t is the share of the line's length; but where walls
+/// bend (`LinkingSurface::straight_across`), t on the lines is harmonic too, so that layers run straight
+/// across the bend, although the line on its inside is shorter. The map is one to one (Tutte) for any
+/// arrangement of wall faces: stacked, side by side, or with seams that do not line up.
 ///
 /// On the inner side of a bend, lines of constant harmonic s lie close together. If the walls are not
 /// straight, s is therefore replaced by a share of length along each section. Section: a line of constant t.
@@ -66,10 +68,14 @@ public:
     /// Coordinates (s, t) of a model point on the walls; s modulo 1.
     [[nodiscard]] Vec2 place_of(Index point) const { return upright(strip_.at(point)); }
 
-    /// The t at a share of the walls' length from source to target (averaged over the columns). With side
-    /// lines, t equals this share. Without side lines, the harmonic t increases faster where the walls are
-    /// narrow.
+    /// The t at a share of the walls' length from source to target (averaged over the columns), and the
+    /// inverse. They are equal if t is the share of the side lines' length; the harmonic t increases faster
+    /// where the walls are narrow.
     [[nodiscard]] double from_even(double height) const;
+    [[nodiscard]] double to_even(double t) const;
+    /// The t at a share of a side line's length, and the inverse.
+    [[nodiscard]] double on_line(std::size_t line, double share) const;
+    [[nodiscard]] double share_of_line(std::size_t line, double t) const;
     /// As `LinkingSurface::branch`, by the segments of the linking surface [turns].
     [[nodiscard]] double target_branch() const { return branch_; }
 
@@ -134,7 +140,9 @@ private:
     std::vector<Index> original_; ///< for each triangle of the tree, the triangle of the linking surface
     double width_ = 1, height_ = 1;
     double branch_ = 0;
-    std::vector<double> even_; ///< share of the walls' length at even steps of t; empty with side lines
+    std::vector<double> even_; ///< share of the walls' length at even steps of t; empty: equal to t
+    /// For each side line, the shares of its points, and their t; empty: equal to the shares.
+    std::vector<std::pair<std::vector<double>, std::vector<double>>> lines_;
     double turn_ = 0, most_turned_ = 0;
     bool bends_ = false;
     std::vector<double> row_at_;               ///< t of each row of `columns_`

@@ -24,6 +24,10 @@ struct JoinedCells {
 /// Places the middle nodes of the parts of order 2 whose corners have moved. @return  false: it failed
 using RaiseOrder = std::function<bool(std::vector<Swept>& parts, const std::set<std::size_t>& moved)>;
 
+/// Note volumes in pieces whose meshes together lose or gain volume, in the report and the log.
+void note_lost_wholes(SweptAssembly& assembly, std::span<const AssemblyMember> members,
+                      const RunContext& context);
+
 /// Improve the poor cells of all parts together (`improve()`). A sweep cannot move the nodes between two
 /// members, because the neighbour has them too, so cells where pieces of a volume meet may stay poor.
 ///
@@ -32,8 +36,8 @@ using RaiseOrder = std::function<bool(std::vector<Swept>& parts, const std::set<
 /// between two faces slide along their common edge. Given nodes, nodes of boundary layers, nodes where more
 /// than two faces meet, and nodes that the user placed on edges by `intervals` or heights stay.
 /// @param raise_order  null: the parts are of order 1.
-/// @return  empty if no node is moved. Also if a moved part is not valid or leaves its faces, or if the least
-///         scaled Jacobian of all parts would decrease.
+/// @return  empty if no node is moved. Also if a moved part is not valid or leaves its faces, if the least
+///         scaled Jacobian of all parts would decrease, or if a whole would lose volume.
 /// @pre   all nodes of the assembly are numbered.
 /// @post  moved parts are proved, and their skins compared with the sealed skins.
 /// @note  cost as for `improve()`, whose limits of work apply.
