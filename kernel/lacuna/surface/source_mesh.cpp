@@ -215,22 +215,21 @@ private:
         }
     }
 
-    /// Mesh a mapped face. A flat one that winds, so that its grid is poor, is filled instead if that is
-    /// better.
+    /// Mesh a mapped face. A flat one that winds, so that its grid is poor, is filled instead if its quads are
+    /// good then.
     void map_or_fill(FaceId face, const std::vector<std::size_t>& corners)
     {
         mesh::QuadMesh& mesh = result_.quads;
         const auto nodes = std::ssize(mesh.nodes), quads = std::ssize(mesh.quads);
         map(face, corners);
         if (model_[face].kind != "plane" || !mesher_ || !seeds_.rows.empty()) return;
-        const double mapped = least_of(face, quads);
-        if (!(mapped < kPoorCell)) return;
+        if (least_of(face, quads) >= kPoorCell) return;
         const std::vector<Vec3> grid_nodes(mesh.nodes.begin() + nodes, mesh.nodes.end());
         const std::vector<Quad> grid(mesh.quads.begin() + quads, mesh.quads.end());
         mesh.nodes.resize(static_cast<std::size_t>(nodes));
         mesh.quads.resize(static_cast<std::size_t>(quads));
         fill(face);
-        if (least_of(face, quads) > mapped) return;
+        if (least_of(face, quads) >= kPoorCell) return;
         mesh.nodes.resize(static_cast<std::size_t>(nodes));
         mesh.quads.resize(static_cast<std::size_t>(quads));
         mesh.nodes.insert(mesh.nodes.end(), grid_nodes.begin(), grid_nodes.end());
