@@ -299,14 +299,15 @@ void mesh_partitions(PieceMesher& mesher, const Volume& sealed, bool mixed, cons
 
 /// A volume whose faces that continue each other are one face, with the same ends if the user named them.
 /// Empty if there are none.
-std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& context)
+std::optional<Volume> with_joined_faces(const Volume& volume, topology::Continued how,
+                                        const RunContext& context)
 {
     const topology::OpenVolume& open = volume.volume;
     if (volume.along || open.full_turn || open.override_class) return std::nullopt;
     const bool named = !volume.roles_found && !volume.no_roles;
     std::vector<int> apart(open.role.size(), 0);
     for (std::size_t f = 0; named && f < apart.size(); ++f) apart[f] = static_cast<int>(open.role[f]);
-    const std::vector<std::vector<FaceId>> faces = topology::continued_faces(open.model, apart, context);
+    const std::vector<std::vector<FaceId>> faces = topology::continued_faces(open.model, apart, how, context);
     // Parts of one face have its tag; opened again, the face would be split again.
     const auto is_one_face = [&](const std::vector<FaceId>& parts) {
         return std::ranges::all_of(
@@ -316,9 +317,12 @@ std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& 
     for (const std::vector<FaceId>& parts : faces)
         if (parts.size() > 1)
             log_line(context,
-                     formatted("note: {} lie on one {} and are meshed as one face, because the cells "
-                               "cannot follow the edges between them",
-                               topology::entities_of(open.model, parts), open.model[parts.front()].kind));
+                     formatted("note: {} {} and are meshed as one face, because the cells cannot follow the "
+                               "edges between them",
+                               topology::entities_of(open.model, parts),
+                               how == topology::Continued::smoothly
+                                   ? "continue each other"
+                                   : "lie on one " + open.model[parts.front()].kind));
     const topology::Model joined = topology::join_faces(open.model, faces, context);
     RoleRequest request;
     if (named) {
@@ -338,13 +342,17 @@ std::optional<Volume> with_joined_faces(const Volume& volume, const RunContext& 
 
 Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunContext& context);
 
-/// Fill a volume that neither a sweep nor cuts fill after joining its faces that continue each other. Empty
-/// if there are none, or if that fails as well; then its notes are not logged.
+/// Fill a volume that neither a sweep nor cuts fill after joining its faces that continue each other: those
+/// on one shape or, if there are none, those that meet smoothly. Empty if there are none of both, or if that
+/// fails as well; then its notes are not logged.
 std::optional<Filled> fill_joined(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
     std::vector<std::string> notes;
     const auto fill = [&](const RunContext& own) -> std::optional<Filled> {
-        const auto joined = with_joined_faces(volume, own);
+        auto joined = with_joined_faces(volume, topology::Continued::on_one_shape, own);
+        // What is missing beside a joined face would be harder to tell.
+        if (!joined && topology::free_edges(volume.volume).empty())
+            joined = with_joined_faces(volume, topology::Continued::smoothly, own);
         if (!joined) return std::nullopt;
         SweepRequest request = asked;
         if (request.options.fallback == sweep::Fallback::mixed)
@@ -431,7 +439,7 @@ Filled sweep_once_or_better(const Volume& volume, bool pieces, bool told, const 
     };
     // Cells cannot follow edges between coplanar parts of an end as well as its rim.
     take_better("with faces joined", [&](const RunContext& other) -> std::optional<Filled> {
-        const auto joined = with_joined_faces(volume, other);
+        const auto joined = with_joined_faces(volume, topology::Continued::on_one_shape, other);
         if (!joined) return std::nullopt;
         return sweep_once(*joined, has_pieces(*joined, other), request, other);
     });

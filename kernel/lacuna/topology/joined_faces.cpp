@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/joined_faces.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/exact.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/cone_shape.h>
@@ -9,6 +10,7 @@
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/patches.h>
 
 #include <algorithm>
 #include <array>
@@ -143,9 +145,23 @@ std::vector<Edge> remaining_edges(const Model& model, const std::vector<std::siz
     return kept;
 }
 
-/// The faces that continue a face, after the face itself.
-std::vector<FaceId> continued(const Model& model, FaceId root, const std::function<bool(FaceId)>& is_free)
+/// Whether other faces lie beside a set of faces. A skin without edges would have no ends.
+bool has_border(const Model& model, const std::vector<FaceId>& set)
 {
+    const auto is_in_set = [&](const FaceUse& use) { return std::ranges::find(set, use.face) != set.end(); };
+    return std::ranges::any_of(set, [&](FaceId face) {
+        return std::ranges::any_of(uses_of(model[face]), [&](const EdgeUse& use) {
+            return !std::ranges::all_of(model.uses_of_edge(use.edge), is_in_set);
+        });
+    });
+}
+
+/// The faces that continue a face, after the face itself.
+/// @param folds  if not empty, bent faces of any shape continue each other over edges that are no creases
+std::vector<FaceId> continued(const Model& model, FaceId root, const std::vector<double>& folds,
+                              const std::function<bool(FaceId)>& is_free)
+{
+    const auto is_bent = [&](const Face& face) { return face.kind != "plane"; };
     std::vector<FaceId> parts{root};
     if (!may_join(model[root])) return parts;
     std::function<double(const Vec3&)> shape; // fitted where a face beside is free
@@ -157,9 +173,15 @@ std::vector<FaceId> continued(const Model& model, FaceId root, const std::functi
             const FaceUse& beside = uses[uses[0].face == parts[p] ? 1 : 0];
             const Face& other = model[beside.face];
             if (std::ranges::find(parts, beside.face) != parts.end() || !may_join(other) ||
-                other.kind != model[root].kind || !are_named_alike(other, model[root]) ||
-                !is_free(beside.face))
+                !are_named_alike(other, model[root]) || !is_free(beside.face))
                 continue;
+            if (!folds.empty()) {
+                if (is_bent(model[root]) && is_bent(other) &&
+                    std::abs(folds[use.edge.index()]) < kCreaseAngle)
+                    parts.push_back(beside.face);
+                continue;
+            }
+            if (other.kind != model[root].kind) continue;
             if (!shape) {
                 shape = shape_of(model, root);
                 if (!shape) return parts;
@@ -236,8 +258,10 @@ bool are_named_alike(const Face& a, const Face& b)
 }
 
 std::vector<std::vector<FaceId>> continued_faces(const Model& model, const std::vector<int>& apart,
-                                                 const RunContext& context)
+                                                 Continued how, const RunContext& context)
 {
+    const std::vector<double> folds = how == Continued::smoothly ? folds_across(model, context)
+                                                                 : std::vector<double>{};
     std::vector<FaceId> roots = all_faces(model);
     std::vector<double> area;
     for (const FaceId face : roots) area.push_back(face_area(model, face));
@@ -247,9 +271,10 @@ std::vector<std::vector<FaceId>> continued_faces(const Model& model, const std::
     for (const FaceId root : roots) {
         if (taken[root.index()] != 0) continue;
         check_cancelled(context);
-        parts.push_back(continued(model, root, [&](FaceId face) {
+        parts.push_back(continued(model, root, folds, [&](FaceId face) {
             return taken[face.index()] == 0 && apart[face.index()] == apart[root.index()];
         }));
+        if (how == Continued::smoothly && !has_border(model, parts.back())) parts.back().resize(1);
         for (const FaceId part : parts.back()) taken[part.index()] = 1;
     }
     return parts;
