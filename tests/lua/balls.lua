@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
 -- Bodies without concave edges around a sphere or a cone: cut through its centre by three planes at right
--- angles, into parts that are divided at their middles.
+-- angles, into parts that are divided at their middles. Pipes and domes with balls.
 -- usage: lacuna balls.lua scratch=FOLDER
 local lacuna = require "lacuna"
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
@@ -154,6 +154,38 @@ BooleanUnion{ Volume{1}; Delete; }{ Volume{2, 3}; Delete; }
     end
   end
   check.that(facets > 500 and facets < 5000, facets)
+end
+
+-- Bent faces that meet without a crease are one wall where cells cannot follow the edge between them: a pipe
+-- whose corner is a ball. A nozzle at the side of a dome is no poor sweep, but its default size loses volume,
+-- so the dome is meshed in pieces.
+do
+  local random = check.random(36)
+  local function swept(name, geo, volume)
+    local file = ("%s/%s.geo"):format(params.scratch, name)
+    check.write(file, 'SetFactory("OpenCASCADE");\n' .. geo)
+    local quality = lacuna.load(file):open_volume {}:sweep({}):quality()
+    check.near(quality.volume, volume, 0.02 * volume)
+    check.that(quality.certified and quality.min_scaled_jacobian > 0.2, name)
+  end
+  for number = 1, check.whole and 6 or 2 do
+    local r, a, b = random(8, 14), random(30, 60), random(30, 60)
+    swept("corner" .. number, ([[
+Sphere(3) = {0,0,0, %.15g};  Cylinder(1) = {0,0,0, %.15g,0,0, %.15g};
+Cylinder(2) = {0,0,0, 0,%.15g,0, %.15g};
+BooleanUnion(9) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };]]):format(r, a, r, b, r),
+      math.pi * r ^ 2 * (a + b) + (math.pi - 4) / 3 * r ^ 3)
+  end
+  for number = 1, check.whole and 3 or 1 do
+    local r, q, lean, out = random(30, 50), random(0.18, 0.2), random(0.7, 0.8), random(1.5, 1.6)
+    q, out = q * r, out * r
+    local x, z = math.sin(lean), math.cos(lean)
+    swept("nozzle" .. number, ([[
+Sphere(1) = {0,0,0, %.15g, 0, Pi/2, 2*Pi};  Cylinder(2) = {%.15g,0,%.15g, %.15g,0,%.15g, %.15g};
+BooleanUnion(9) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]]):format(
+        r, 0.4 * r * x, 0.4 * r * z, (out - 0.4 * r) * x, (out - 0.4 * r) * z, q),
+      math.pi * q ^ 2 * out + 2 / 3 * math.pi * (r ^ 2 - q ^ 2) ^ 1.5)
+  end
 end
 
 check.done()

@@ -125,10 +125,12 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
 // --- volumes that no single sweep fills -------------------------------------------------------------------
 
 /// The relative difference between the volume of a mesh and that of the sealed skin.
-double lost_volume(const FilledParts& mesh)
+double lost_volume(const sweep::Fidelity& shape) { return std::abs(shape.volume / shape.sealed_volume - 1); }
+
+double lost_volume(const Filled& filled)
 {
-    const sweep::Fidelity shape = fidelity(mesh);
-    return std::abs(shape.volume / shape.sealed_volume - 1);
+    const auto* parts = std::get_if<FilledParts>(&filled.mesh);
+    return lost_volume(parts ? fidelity(*parts) : std::get<FilledVolume>(filled.mesh).swept.fidelity);
 }
 
 /// Sweep pieces and check that their volume is that of the sealed whole. If it is not, the sizes are reduced
@@ -140,12 +142,12 @@ FilledParts sweep_pieces_true(const Volume& sealed, const std::vector<closure::S
                               sweep::SweepOptions options, bool sized, const RunContext& context)
 {
     FilledParts mesh = sweep_pieces(sealed, pieces, options, context);
-    double off = lost_volume(mesh);
+    double off = lost_volume(fidelity(mesh));
     if (sized || !(off > kVolumeNoted)) return mesh;
     const double finer = std::sqrt(kSameVolume / 2 / off);
     options.size = [size = options.size, finer](const Vec3& p) { return finer * size(p); };
     mesh = sweep_pieces(sealed, pieces, options, context);
-    off = lost_volume(mesh);
+    off = lost_volume(fidelity(mesh));
     if (off > kVolumeNoted)
         throw NotSweepable(
             Message("sweep.volume",
@@ -405,9 +407,10 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     return filled;
 }
 
-/// Sweep a volume once. If cells are poor, and the ends are not the user's, the volume is also swept with its
-/// faces that continue each other joined, and, if cells are still poor, in pieces. The mesh whose worst cell
-/// is best is taken. Only the notes of that mesh are logged.
+/// Sweep a volume once. If cells are poor or, with default sizes, the volume is off, and the ends are not the
+/// user's, the volume is also swept with its faces that continue each other joined, and, if that does not
+/// help, in pieces. Of the meshes that keep the volume, the one whose worst cell is best is taken. Only the
+/// notes of that mesh are logged.
 /// @param pieces, told  as for `sweep_once()` and `sweep_in_pieces()`
 Filled sweep_once_or_better(const Volume& volume, bool pieces, bool told, const SweepRequest& request,
                             const RunContext& context)
@@ -428,12 +431,15 @@ Filled sweep_once_or_better(const Volume& volume, bool pieces, bool told, const 
         log_notes();
         throw;
     }
+    const auto keeps_volume = [&](const Filled& mesh) {
+        return request.options.size || !(lost_volume(mesh) > kVolumeNoted);
+    };
     const auto take_better = [&](std::string_view how, const auto& fill) {
-        const double least = least_of(parts(*filled));
-        if (!(least < kPoorCell)) return;
+        const std::pair so_far(keeps_volume(*filled), least_of(parts(*filled)));
+        if (so_far.first && !(so_far.second < kPoorCell)) return;
         std::vector<std::string> notes_of_other;
         auto other = attempted(how, notes_of_other, context, fill);
-        if (!other || !(least_of(parts(*other)) > least + kVisible)) return;
+        if (!other || !(std::pair(keeps_volume(*other), least_of(parts(*other)) - kVisible) > so_far)) return;
         filled = std::move(other);
         notes = std::move(notes_of_other);
     };
@@ -444,8 +450,14 @@ Filled sweep_once_or_better(const Volume& volume, bool pieces, bool told, const 
         return sweep_once(*joined, has_pieces(*joined, other), request, other);
     });
     take_better("in pieces", [&](const RunContext& other) {
-        const Message why("quality.below_limit", "the least scaled Jacobian of a single sweep is {:.2g}",
-                          found(least_of(parts(*filled))));
+        const double off = lost_volume(*filled);
+        const Message why = keeps_volume(*filled)
+                                ? Message("quality.below_limit",
+                                          "the least scaled Jacobian of a single sweep is {:.2g}",
+                                          found(least_of(parts(*filled))))
+                                : Message("sweep.volume",
+                                          "the mesh of a single sweep differs by {:.2g} % in volume",
+                                          found(100 * off));
         return sweep_in_pieces(volume, why, told, request, other);
     });
     log_notes();

@@ -342,9 +342,10 @@ void note_lost_wholes(SweptAssembly& assembly, std::span<const AssemblyMember> m
     for (const auto& [whole, volume] : whole_volumes(assembly.parts, members)) {
         const double lost = 1 - volume.mesh / volume.sealed;
         if (whole.second != 0 || std::abs(lost) <= kVolumeNoted) continue;
-        assembly.report.push_back(formatted("note: {}: the meshes of the pieces together have {:.2g} % {} "
-                                            "volume than the sealed shape; use a smaller 'size'",
-                                            whole.first, 100 * std::abs(lost), lost > 0 ? "less" : "more"));
+        assembly.report.push_back(
+            formatted("note: {}: the meshes of the pieces together have {:.2g} % {} "
+                      "volume than the sealed shape; use a smaller 'size' [sweep.volume]",
+                      whole.first, 100 * std::abs(lost), lost > 0 ? "less" : "more"));
         log_line(context, assembly.report.back());
     }
 }

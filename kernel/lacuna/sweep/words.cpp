@@ -48,7 +48,7 @@ std::string volume_in_words(const Swept& swept, const OpenVolume& volume, const 
                        });
     return formatted(
         "the mesh has {:.2g} % {} volume than the sealed shape; {}size = {:.2g} and layers = {} should keep "
-        "the difference within 1 %{}",
+        "the difference within 1 %{} [sweep.volume]",
         100 * std::abs(lost), lost > 0 ? "less" : "more", keeps ? "quads = \"paved\", " : "",
         part * length / static_cast<double>(swept.mesh.rim.size()),
         static_cast<int>(std::ceil(swept.mesh.layers / part)),
