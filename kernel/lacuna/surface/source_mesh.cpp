@@ -215,8 +215,8 @@ private:
         }
     }
 
-    /// Mesh a mapped face. A flat one that winds, so that its grid is poor, is filled instead if its quads are
-    /// good then.
+    /// Mesh a mapped face. A flat one that winds, so that its grid is poor, is filled instead if its quads
+    /// are good then.
     void map_or_fill(FaceId face, const std::vector<std::size_t>& corners)
     {
         mesh::QuadMesh& mesh = result_.quads;
