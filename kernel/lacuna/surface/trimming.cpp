@@ -132,69 +132,38 @@ void Trimming::add_loop(const Loop& loop, const std::vector<Index>& facet_of_sid
     }
 }
 
-Trimming::Clearance Trimming::clearance_of(Index triangle) const
+/// Distance of the closest point on the facets from the sides of its facet.
+double Trimming::to_sides(const Projected& point) const
 {
-    const Triangle& t = (*model_)[face_].triangles[index(triangle)];
+    const Triangle& t = (*model_)[face_].triangles[index(point.triangle)];
     const Vec3 &a = model_->at(t[0]), &b = model_->at(t[1]), &c = model_->at(t[2]);
-    const Vec3 centre = (a + b + c) / 3;
-    double reach = 0;
-    for (const Index corner : t) reach = std::max(reach, (model_->at(corner) - centre).norm());
-    Clearance clear{std::sqrt(tree_.closest(centre).distance2) - reach, Vec3::Zero()};
-    const double twice = (b - a).cross(c - a).norm();
-    clear.heights = {twice / (c - b).norm(), twice / (a - c).norm(), twice / (b - a).norm()};
-    return clear;
-}
-
-/// Whether a point is certainly inside the face. Let d be the distance of the point from its facet, plus the
-/// largest bulge of the border. One of these conditions is enough:
-/// - d is smaller than the distance of the facet from the border.
-/// - d is smaller than the distance of the closest point on the facet from the facet's sides.
-bool Trimming::is_clear(const Projected& point, bool measured) const
-{
-    const double reach = (*point.at - point.from->point).norm() + most_bulge_;
-    const Clearance clear = measured ? clearance_[index(point.triangle)] : clearance_of(point.triangle);
-    return reach < clear.facet || reach < point.from->barycentric.cwiseProduct(clear.heights).minCoeff();
+    const Vec3 lengths((c - b).norm(), (a - c).norm(), (b - a).norm());
+    return (b - a).cross(c - a).norm() * point.from->barycentric.cwiseQuotient(lengths).minCoeff();
 }
 
 bool Trimming::is_near(const Projected& point, Near& near) const
 {
+    // The projection cannot have moved the point across a border that is farther away along the face.
     const double reach = (*point.at - point.from->point).norm() + most_bulge_;
+    if (reach < to_sides(point) || tree_.closest(point.from->point, reach * reach).triangle < 0) return false;
     const geometry::FacetTree::Hit hit = tree_.closest(*point.at);
     const Side& side = sides_[index(hit.triangle)];
     near.side = index(hit.triangle);
     near.share = hit.barycentric[1];
     near.on_border = hit.point;
     near.inward = near.share <= 0 ? side.inward_at_start : near.share >= 1 ? side.inward_at_end : side.inward;
-    if (std::sqrt(hit.distance2) <= side.bulge) return true;
-    if ((*point.at - hit.point).dot(near.inward) >= 0) return false;
-    // The border may be near the point in space, but far from it along the face. The projection cannot have
-    // moved the point across such a border.
-    return std::sqrt(tree_.closest(point.from->point).distance2) <= reach;
+    return std::sqrt(hit.distance2) <= side.bulge || (*point.at - hit.point).dot(near.inward) < 0;
 }
 
 void Trimming::keep_inside(std::span<const Projected> points, const RunContext& context) const
 {
     if (sides_.empty()) return;
-    // If there are at least as many points as facets, compute the clearance of all facets once. Otherwise
-    // compute it only for the facets of the points.
-    const std::size_t facets = (*model_)[face_].triangles.size();
-    const bool measured = points.size() >= facets;
-    if (measured) {
-        std::call_once(once_, [&] {
-            for (std::size_t t = 0; t < facets; ++t)
-                clearance_.push_back(clearance_of(static_cast<Index>(t)));
-        });
-    }
-    std::vector<char> clear(points.size(), 0);
-    parallel_each(context, points.size(), kPerTask,
-                  [&](std::size_t i) { clear[i] = is_clear(points[i], measured) ? 1 : 0; });
-    std::vector<Near> near;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (clear[i] == 0) near.emplace_back().point = i;
-    }
-    std::vector<char> taken(near.size(), 0);
-    parallel_each(context, near.size(), kPerTask,
-                  [&](std::size_t i) { taken[i] = is_near(points[near[i].point], near[i]) ? 1 : 0; });
+    std::vector<Near> near(points.size());
+    std::vector<char> taken(points.size(), 0);
+    parallel_each(context, points.size(), kPerTask, [&](std::size_t i) {
+        near[i].point = i;
+        taken[i] = is_near(points[i], near[i]) ? 1 : 0;
+    });
     std::map<EdgeId, std::vector<Near>> by_edge;
     for (std::size_t i = 0; i < near.size(); ++i) {
         if (taken[i] != 0) by_edge[sides_[near[i].side].use.edge].push_back(near[i]);

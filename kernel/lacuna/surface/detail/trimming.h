@@ -5,7 +5,6 @@
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/model.h>
 
-#include <mutex>
 #include <span>
 #include <vector>
 
@@ -31,7 +30,7 @@ public:
     Trimming(const topology::Model& model, FaceId face);
 
     /// Move every point outside the face to the nearest point of the face's border curves. Other points stay
-    /// bit-identical. A point well inside costs one comparison.
+    /// bit-identical.
     void keep_inside(std::span<const Projected> points, const RunContext& context = {}) const;
 
 private:
@@ -50,16 +49,8 @@ private:
         Vec3 on_border = Vec3::Zero(), inward = Vec3::Zero();
     };
 
-    /// Lower bounds of the distance from points of a facet to the border.
-    struct Clearance {
-        double facet = 0;            ///< lower bound for the whole facet [model length]
-        Vec3 heights = Vec3::Zero(); ///< height of each corner over the opposite side [model length]
-    };
-
     void add_loop(const topology::Loop& loop, const std::vector<Index>& facet_of_side);
-    [[nodiscard]] Clearance clearance_of(Index triangle) const;
-
-    [[nodiscard]] bool is_clear(const Projected& point, bool measured) const;
+    [[nodiscard]] double to_sides(const Projected& point) const;
     [[nodiscard]] bool is_near(const Projected& point, Near& near) const;
     void settle(std::span<const Projected> points, std::span<Near> near) const;
 
@@ -68,8 +59,6 @@ private:
     std::vector<Side> sides_;
     geometry::FacetTree tree_; ///< one degenerate facet (without area) for each side
     double most_bulge_ = 0;
-    mutable std::once_flag once_;
-    mutable std::vector<Clearance> clearance_; ///< for each facet, computed on first use
 };
 
 } // namespace lacuna::surface
