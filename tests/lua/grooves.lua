@@ -81,6 +81,26 @@ BooleanDifference(5) = { Volume{1}; Delete; }{ Volume{2:4}; Delete; };]]):format
   check.that(quality.min_scaled_jacobian > 0.6, quality.min_scaled_jacobian)
 end
 
+-- A missing round wall between exact circles: the facets that close it are chords, but nodes lie on the round.
+do
+  local model, faces = faces_of([[
+Cylinder(1) = {0, 0, 0, 0, 0, 40, 25}; Cylinder(2) = {0, 0, 15, 0, 0, 6, 25};
+Cylinder(3) = {0, 0, 15, 0, 0, 6, 21}; BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
+BooleanDifference(5) = { Volume{1}; Delete; }{ Volume{4}; Delete; };]], function(face)
+    return face.centroid[3] > 14.5 and face.centroid[3] < 21.5
+  end)
+  for order = 1, 2 do
+    local mesh = model:open_volume({ faces = faces }):sweep { size = 1.5, layers = 4, order = order }
+    local least = 25
+    for i = 1, mesh.nodes do
+      local x, y = mesh:node(i)
+      local r = math.sqrt(x * x + y * y)
+      if r > 24.5 then least = math.min(least, r) end
+    end
+    check.near(least, 25, order == 1 and 1e-6 or 1e-3)
+  end
+end
+
 -- The ring below the rounds of a shallow groove: cells that are improved together with those of the other
 -- half of the turn do not leave the rounds.
 do

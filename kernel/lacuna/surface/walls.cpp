@@ -252,7 +252,18 @@ private:
         }
         if (!flat && !inside.empty()) {
             if (exact_) {
-                Projector(model_, {face}).project(inside, context_);
+                Projector projector(model_, {face});
+                projector.project(inside, context_);
+                if (is_of_chords(face)) {
+                    std::vector<Vec3> low = bottom, high = top;
+                    projector.project(low, context_);
+                    projector.project(high, context_);
+                    for (std::size_t j = 0; j < inside.size(); ++j) {
+                        const std::size_t i = 1 + j % (n - 1);
+                        const double share = heights_[1 + j / (n - 1)];
+                        inside[j] += (1 - share) * (bottom[i] - low[i]) + share * (top[i] - high[i]);
+                    }
+                }
             } else {
                 const geometry::FacetTree tree(model_.points, model_[face].triangles);
                 for (Vec3& p : inside) p = tree.closest(p).point;
@@ -292,7 +303,45 @@ private:
             }
         }
         const std::vector<Vec3> points = points_at(model_, places, exact_);
-        for (std::size_t j = 0; j < points.size(); ++j) mesh_.points[nodes[j]] = points[j];
+        std::vector<char> on_void(mesh_.points.size(), 0);
+        for (std::size_t j = 0; j < points.size(); ++j) {
+            mesh_.points[nodes[j]] = points[j];
+            on_void[nodes[j]] = is_of_chords(places[j].face) ? 1 : 0;
+        }
+        for (std::size_t i = first; i < last && exact_; ++i) move_with_rims(i, on_void);
+    }
+
+    /// Whether a face is void and has no exact surface. Its facets are chords of its rims, which may be exact
+    /// curves.
+    [[nodiscard]] bool is_of_chords(FaceId face) const
+    {
+        return model_[face].origin == Origin::made_void && !model_[face].surface;
+    }
+
+    /// Move the nodes of a column that lie inside such a face by what the nodes next above and below, on its
+    /// rims, lie off the facets.
+    void move_with_rims(std::size_t i, const std::vector<char>& on_void)
+    {
+        const auto off_facets = [&](std::size_t k) -> Vec3 {
+            const std::size_t node = k * count_ + i;
+            const bool on_rim = k == 0 || k == layers_ || grid_.on_edge.contains(node);
+            if (!on_rim || begun_.given.has_node(k, i)) return Vec3::Zero();
+            const Vec2& at = grid_.place[node];
+            return mesh_.points[node] -
+                   points_at(model_, std::array{map_->locate(at.x(), at.y())}, false).front();
+        };
+        for (std::size_t low = 0, k = 1; k <= layers_; ++k) {
+            if (on_void[k * count_ + i] != 0) continue;
+            if (k > low + 1) {
+                const Vec3 below = off_facets(low), above = off_facets(k);
+                const double from = grid_.place[low * count_ + i].y(), to = grid_.place[k * count_ + i].y();
+                for (std::size_t j = low + 1; j < k; ++j) {
+                    const double share = (grid_.place[j * count_ + i].y() - from) / (to - from);
+                    point(j, i) += (1 - share) * below + share * above;
+                }
+            }
+            low = k;
+        }
     }
 
     const OpenVolume& volume_;
