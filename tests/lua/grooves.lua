@@ -81,7 +81,7 @@ BooleanDifference(5) = { Volume{1}; Delete; }{ Volume{2:4}; Delete; };]]):format
   check.that(quality.min_scaled_jacobian > 0.6, quality.min_scaled_jacobian)
 end
 
--- A missing round wall between exact circles: the facets that close it are chords, but nodes lie on the round.
+-- A missing round wall between exact circles: facets that close it are chords, but nodes lie on the round.
 do
   local model, faces = faces_of([[
 Cylinder(1) = {0, 0, 0, 0, 0, 40, 25}; Cylinder(2) = {0, 0, 15, 0, 0, 6, 25};
