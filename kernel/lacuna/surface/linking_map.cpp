@@ -34,7 +34,8 @@ using namespace topology;
 namespace {
 
 /// Linear interpolation between values at increasing positions that begin with the least.
-double between(const std::vector<double>& at, const std::vector<double>& values, double x)
+template <class Value>
+Value between(const std::vector<double>& at, const std::vector<Value>& values, double x)
 {
     const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, x);
     const auto i = static_cast<std::size_t>(above - at.begin());
@@ -107,14 +108,7 @@ struct LineHeights {
 double obliqueness(const std::vector<LineHeights>& lines, std::vector<double> LineHeights::*steps)
 {
     const auto at = [&](const LineHeights& line, int k) {
-        std::array<double, 3> place{};
-        const double step = static_cast<double>(k) / kFineChords;
-        for (Eigen::Index i = 0; i < 3; ++i) {
-            std::vector<double> along;
-            for (const Vec3& p : line.points) along.push_back(p[i]);
-            place[static_cast<std::size_t>(i)] = between(line.*steps, along, step);
-        }
-        return Vec3(place[0], place[1], place[2]);
+        return between(line.*steps, line.points, static_cast<double>(k) / kFineChords);
     };
     double sum = 0;
     for (std::size_t i = 0; i < lines.size(); ++i)
@@ -470,19 +464,6 @@ Vec2 LinkingMap::upright(const Vec2& place) const
         (harmonic(middle, place.y()) < place.x() ? low : high) = middle;
     }
     return {(low + high) / 2, place.y()};
-}
-
-bool runs_straight(const Model& model, const LinkingSurface& link)
-{
-    const Vec3 way = (geometry::mean_point(round_points(link.target)) -
-                      geometry::mean_point(round_points(link.source)))
-                         .stableNormalized();
-    return std::ranges::all_of(link.walls, [&](FaceId wall) {
-        return std::ranges::all_of(model[wall].triangles, [&](const Triangle& t) {
-            const Vec3 normal = facet_area_vector(model, t);
-            return std::abs(normal.dot(way)) <= kParallel * normal.norm();
-        });
-    });
 }
 
 WallPosition LinkingMap::locate(double s, double t, std::size_t& near) const

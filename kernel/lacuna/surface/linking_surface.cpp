@@ -4,10 +4,12 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/affine.h>
 #include <lacuna/matching/shared/corners.h>
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/detail/paired_breaks.h>
+#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -290,6 +292,19 @@ LinkingSurface tube_link(const OpenVolume& volume, FaceId face, const RunContext
 {
     const std::vector<Loop>& loops = volume.model[face].loops;
     return make_link(volume, {face}, {against(loops[0].uses)}, {against(loops[1].uses)}, {}, {}, context);
+}
+
+bool runs_straight(const Model& model, const LinkingSurface& link)
+{
+    const Vec3 way = (geometry::mean_point(round_points(link.target)) -
+                      geometry::mean_point(round_points(link.source)))
+                         .stableNormalized();
+    return std::ranges::all_of(link.walls, [&](FaceId wall) {
+        return std::ranges::all_of(model[wall].triangles, [&](const Triangle& t) {
+            const Vec3 normal = facet_area_vector(model, t);
+            return std::abs(normal.dot(way)) <= kParallel * normal.norm();
+        });
+    });
 }
 
 std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning turning,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/projector.h>
 
-#include <lacuna/core/shared/limits.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/surface/detail/trimming.h>
 
@@ -70,8 +70,30 @@ Projector::~Projector() = default;
 std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext& context) const
 {
     std::vector<geometry::FacetTree::Hit> hits(points.size());
-    parallel_each(context, points.size(), kPerTask,
-                  [&](std::size_t i) { hits[i] = tree_.closest(points[i]); });
+    const auto hit_on = [&](Index facet, const Vec3& p) {
+        const Triangle& t = facets_.triangles[index(facet)];
+        const std::array<Vec3, 3> corners{model_->at(t[0]), model_->at(t[1]), model_->at(t[2])};
+        geometry::FacetTree::Hit hit = geometry::closest_on_triangle(p, corners);
+        hit.triangle = facet;
+        return hit;
+    };
+    // A point within `rounding` of a facet lies on the facet. If all its weights are above kFileAccuracy,
+    // it is not on the facet's border, so no other facet is closer, and the search ends.
+    const double rounding = 1e-15 * tree_.bounds().diagonal().norm();
+    parallel_for(context, points.size(), 512, [&](std::size_t begin, std::size_t end) {
+        // Consecutive points are close to each other. The distance to the last point's facet therefore limits
+        // the search for the next point.
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i > begin) {
+                hits[i] = hit_on(hits[i - 1].triangle, points[i]);
+                const bool inside = hits[i].barycentric.minCoeff() > kFileAccuracy;
+                if (inside && hits[i].distance2 <= rounding * rounding) continue;
+                hits[i] = tree_.closest(points[i], hits[i].distance2);
+            }
+            // Because of rounding, the limited search may find no facet.
+            if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]);
+        }
+    });
     std::map<FaceId, std::vector<std::size_t>> on_face;
     std::vector<FaceId> faces(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
