@@ -319,6 +319,24 @@ do
   check.equal(select(2, err:gsub("%[closure%.wall_assumed%]", "")), 1, err)
 end
 
+-- So is what is assumed where the sealed volume is cut into pieces.
+do
+  check.write(params.scratch .. "/tube.geo", [[SetFactory("OpenCASCADE");
+    Cylinder(1) = {0,0,0, 0,0,40, 10}; Sphere(2) = {0,0,0, 10};
+    BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]])
+  check.write(params.scratch .. "/recipe.lua", [[
+    local lacuna = require "lacuna"
+    local model = lacuna.load "tube.geo"
+    local open = model:faces { kind = "sphere" }
+    table.move(model:faces { kind = "cylinder" }, 1, 9, #open + 1, open)
+    local mesh = model:open_volume { faces = open }:sweep {}
+    assert(table.concat(mesh.report, "\n"):find("closed: flat faces are assumed", 1, true))
+  ]])
+  local code, _, err = check.run(params.lacuna, params.scratch, { "recipe.lua" })
+  check.equal(code, 0, err)
+  check.equal(select(2, err:gsub("%[closure%.flat_assumed%]", "")), 1, err)
+end
+
 -- One to three faces of generated bodies, drawn at random, are sealed right, noted or refused. No body has a
 -- feature that three faces hide, as those of a blind bore and round its mouth do.
 do

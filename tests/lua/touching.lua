@@ -175,4 +175,16 @@ for n = 1, 200, check.whole and 1 or 59 do
   end
 end
 check.that(meshed >= 0.9 * tried, ("%d of %d filleted products meshed"):format(meshed, tried))
+-- A board on a floor touches it over an area. A refusal for another reason says that reason.
+do
+  local path = params.scratch .. "/board.geo"
+  check.write(path, [[SetFactory("OpenCASCADE"); Box(1) = {0,0,0, 40,30,20}; Box(2) = {3,3,3, 34,24,20};
+    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; }; Box(4) = {10,10,3, 12,8,5};]])
+  local model = lacuna.load(path)
+  local inside = model:faces { box = { { 2.9, 2.9, 2.9 }, { 37.1, 27.1, 20.1 } } }
+  check.fails(function()
+    model:open_volume { faces = inside, fill_to = { { 0, 0, 26 }, { 0, 0, 1 } } }
+  end, "the plane misses the volume", "closure.cut_misses")
+end
+
 check.done()
