@@ -257,4 +257,43 @@ for _, member in ipairs(members) do
   check.that(math.abs(quality.volume / mesh.fidelity.sealed_volume - 1) < 0.02)
 end
 
+-- A bent tube of eight facets a turn is no scan: its points stay, and where its facets bend as much as at
+-- edges, the refusal says what to load it with.
+do
+  local random, points, made = check.random(7), {}, { "solid" }
+  local function facet(...)
+    made[#made + 1] = "facet normal 0 0 0\nouter loop"
+    for _, k in ipairs { ... } do
+      made[#made + 1] = ("vertex %.9g %.9g %.9g"):format(table.unpack(points[k]))
+    end
+    made[#made + 1] = "endloop\nendfacet"
+  end
+  for j = 0, 20 do
+    for i = 0, 7 do
+      local a = math.pi / 4 * (i + j % 2 / 2 + random(-0.15, 0.15))
+      local b = math.pi / 20 * (j + (j % 20 > 0 and random(-0.125, 0.125) or 0))
+      local out = 9 + 3 * math.cos(a)
+      points[#points + 1] = { out * math.cos(b), out * math.sin(b), 3 * math.sin(a) }
+    end
+  end
+  for j = 0, 19 do
+    for i = 0, 7 do
+      local a, b = 8 * j + i + 1, 8 * j + (i + 1) % 8 + 1
+      facet(a, b, j % 2 == 0 and a + 8 or b + 8)
+      facet(j % 2 == 0 and b or a, b + 8, a + 8)
+    end
+  end
+  made[#made + 1] = "endsolid\n"
+  local path = params.scratch .. "/coarse.stl"
+  check.write(path, table.concat(made, "\n"))
+  local model = lacuna.load(path)
+  check.that(#model:faces() > 1)
+  check.fails(function() model:open_volume({ walls = model:faces() }):sweep {} end, "feature_angle")
+  local whole = lacuna.load(path, { feature_angle = 70 })
+  check.equal(#whole:faces(), 1)
+  local mesh = whole:open_volume({ walls = whole:faces() }):sweep {}
+  local volume = 9 * math.pi * 8 / 2 * 9 * math.sin(math.pi / 4)
+  check.near(mesh:quality().volume, volume, 0.05 * volume)
+end
+
 check.done()

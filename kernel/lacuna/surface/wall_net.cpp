@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/topology/shared/joined_faces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -406,8 +407,18 @@ void refuse_wall_edge(const Model& model, EdgeId edge, const char* why, const ch
 {
     std::vector<NamedEntity> faces;
     for (const FaceUse& use : model.uses_of_edge(edge)) faces.push_back(entity_of(model, use.face));
+    // Coarse facets of a tube may bend as much as those at an edge.
+    const std::span<const FaceUse> uses = model.uses_of_edge(edge);
+    const bool of_facets = uses.size() == 2 && std::ranges::all_of(uses, [&](const FaceUse& use) {
+                               const Face& face = model[use.face];
+                               return face.origin == Origin::given && !face.surface && !face.keeps_nodes &&
+                                      are_named_alike(face, model[uses.front().face]);
+                           });
     throw NotSweepable(
-        Message("surface.wall_edge", "{} of {} {}", entity_of(model, edge), faces, why).remedy("{}", remedy));
+        Message("surface.wall_edge", "{} of {} {}", entity_of(model, edge), faces, why)
+            .remedy("{}{}", remedy,
+                    of_facets ? ", or load with a larger 'feature_angle' if it only bends between facets"
+                              : ""));
 }
 
 } // namespace lacuna::surface

@@ -109,7 +109,7 @@ private:
                             std::ranges::all_of(panels, [&](const auto& faces) { return is_simple(faces); });
         if (!simple || (link_.straight_across && !runs_straight(model_, link_))) {
             map_ = map_of(volume_, link_, void_edges, context_);
-            net_ = wall_net(model_, link_, *map_);
+            if (!simple) net_ = wall_net(model_, link_, *map_);
         }
         grid_ = lay_strip({model_, link_, nodes_, heights_, line_of_, begun_}, map_.get(), net_, context_);
         mesh_lines();
