@@ -5,7 +5,6 @@
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_radius.h>
-#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/facet_sag.h>
 #include <lacuna/topology/shared/names_of.h>
 
@@ -42,7 +41,14 @@ bool share_a_point(const Triangle& a, const Triangle& b)
     return std::ranges::any_of(a, [&](Index p) { return std::ranges::find(b, p) != b.end(); });
 }
 
-/// Whether two facets lie on each other over an area: shrunk ones, too, touch.
+bool are_parallel(const Corners& one, const Corners& other)
+{
+    const Vec3 m = (one[1] - one[0]).cross(one[2] - one[0]),
+               n = (other[1] - other[0]).cross(other[2] - other[0]);
+    return m.cross(n).norm() <= kParallel * m.norm() * n.norm();
+}
+
+/// Whether two facets lie on each other over an area: they are parallel, and shrunk ones touch, too.
 bool touch_over_area(const Corners& one, const Corners& other, double tolerance)
 {
     const auto shrunk = [](const Corners& facet) {
@@ -56,9 +62,7 @@ bool touch_over_area(const Corners& one, const Corners& other, double tolerance)
             return geometry::closest_on_triangle(p, facet).distance2 <= tolerance * tolerance;
         });
     };
-    const Vec3 m = (one[1] - one[0]).cross(one[2] - one[0]),
-               n = (other[1] - other[0]).cross(other[2] - other[0]);
-    return m.cross(n).norm() <= kParallel * m.norm() * n.norm() &&
+    return are_parallel(one, other) &&
            (reaches(shrunk(one), shrunk(other)) || reaches(shrunk(other), shrunk(one)));
 }
 
@@ -154,11 +158,9 @@ std::optional<Message> crossing_faces(const Model& model, const std::vector<Face
         const FaceId one = face_of[index(a)], other = face_of[index(b)];
         const Triangle &s = facets[index(a)], &t = facets[index(b)];
         if (one == other || share_a_point(s, t)) return false;
-        const Vec3 m = facet_area_vector(model, s), n = facet_area_vector(model, t);
-        // Faces in one plane are in contact.
-        if (m.cross(n).norm() <= kParallel * m.norm() * n.norm()) return false;
         const Corners mine = corners_of(model, s), theirs = corners_of(model, t);
-        return !is_on_one_side(round[one.index()], theirs, model.tolerance) &&
+        // Faces in one plane are in contact.
+        return !are_parallel(mine, theirs) && !is_on_one_side(round[one.index()], theirs, model.tolerance) &&
                !is_on_one_side(round[other.index()], mine, model.tolerance) &&
                geometry::triangles_cross(mine, theirs,
                                          model.tolerance + sag[one.index()] + sag[other.index()]);

@@ -96,12 +96,6 @@ geometry::HarmonicValues natural_coordinate(const Model& model, const std::vecto
     return geometry::solve_on_facets(problem, context);
 }
 
-/// The points of a side line, the shares of its length at which they lie, and their coordinates t.
-struct LineHeights {
-    std::vector<Vec3> points;
-    std::vector<double> shares, heights;
-};
-
 /// How oblique the lines between neighbouring side lines are: the mean square of the cosines of their angles
 /// with the side lines, over lines at even steps.
 /// @param steps  for each side line, where each point lies: its shares, or its t.
@@ -260,13 +254,12 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         const double turned = s - std::floor(s - end_branch + kRoundoff);
         fixed[p.point] = Vec2(p.point == cut.points.back() ? end_branch : turned, 1);
     }
-    for (LineHeights& line : natural_heights(model, facets, link, context))
-        lines_.emplace_back(std::move(line.shares), std::move(line.heights));
+    lines_ = natural_heights(model, facets, link, context);
     for (std::size_t u = 0; u < upright.size(); ++u) {
         const Crease& line = upright[u];
         std::vector<double> at = geometry::arc_lengths(places_at(model, line.points));
         for (double& share : at) share /= at.back();
-        if (!lines_.empty()) at = lines_[u].second;
+        if (!lines_.empty()) at = lines_[u].heights;
         for (std::size_t i = 0; i < line.points.size(); ++i)
             fixed[line.points[i]] = Vec2(line.source_at / link.source.length(), at[i]);
     }
@@ -359,12 +352,12 @@ double LinkingMap::to_even(double t) const { return even_.empty() ? t : value_at
 
 double LinkingMap::on_line(std::size_t line, double share) const
 {
-    return lines_.empty() ? share : between(lines_[line].first, lines_[line].second, share);
+    return lines_.empty() ? share : between(lines_[line].shares, lines_[line].heights, share);
 }
 
 double LinkingMap::share_of_line(std::size_t line, double t) const
 {
-    return lines_.empty() ? t : between(lines_[line].second, lines_[line].first, t);
+    return lines_.empty() ? t : between(lines_[line].heights, lines_[line].shares, t);
 }
 
 void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link, const RunContext& context)

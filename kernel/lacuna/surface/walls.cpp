@@ -15,7 +15,9 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -97,6 +99,7 @@ private:
     WallMesh mesh(bool void_edges)
     {
         mesh_ = begun_.mesh;
+        on_face_.assign(mesh_.points.size(), FaceId());
         set_row(0, link_.source.points(nodes_.source_at));
         set_row(layers_, target_points(link_, nodes_));
         if (begun_.given.has_all(0, count_)) return std::move(mesh_);
@@ -124,6 +127,7 @@ private:
                 mesh_by_map(first, last);
         }
         check_stops();
+        if (exact_) move_with_rims();
         return std::move(mesh_);
     }
 
@@ -252,18 +256,7 @@ private:
         }
         if (!flat && !inside.empty()) {
             if (exact_) {
-                Projector projector(model_, {face});
-                projector.project(inside, context_);
-                if (is_of_chords(face)) {
-                    std::vector<Vec3> low = bottom, high = top;
-                    projector.project(low, context_);
-                    projector.project(high, context_);
-                    for (std::size_t j = 0; j < inside.size(); ++j) {
-                        const std::size_t i = 1 + j % (n - 1);
-                        const double share = heights_[1 + j / (n - 1)];
-                        inside[j] += (1 - share) * (bottom[i] - low[i]) + share * (top[i] - high[i]);
-                    }
-                }
+                Projector(model_, {face}).project(inside, context_);
             } else {
                 const geometry::FacetTree tree(model_.points, model_[face].triangles);
                 for (Vec3& p : inside) p = tree.closest(p).point;
@@ -271,7 +264,10 @@ private:
         }
         std::size_t next = 0;
         for (std::size_t k = 1; k < layers_; ++k) {
-            for (std::size_t i = 1; i < n; ++i) point(k, first + i) = inside[next++];
+            for (std::size_t i = 1; i < n; ++i) {
+                point(k, first + i) = inside[next++];
+                if (!flat) on_face_[k * count_ + first + i] = face;
+            }
         }
         for (std::size_t k = 0; k < layers_; ++k) {
             for (std::size_t i = first; i < last; ++i) mesh_.face[k * count_ + i] = face;
@@ -303,44 +299,43 @@ private:
             }
         }
         const std::vector<Vec3> points = points_at(model_, places, exact_);
-        std::vector<char> on_void(mesh_.points.size(), 0);
         for (std::size_t j = 0; j < points.size(); ++j) {
             mesh_.points[nodes[j]] = points[j];
-            on_void[nodes[j]] = is_of_chords(places[j].face) ? 1 : 0;
+            on_face_[nodes[j]] = places[j].face;
         }
-        for (std::size_t i = first; i < last && exact_; ++i) move_with_rims(i, on_void);
     }
 
-    /// Whether a face is void and has no exact surface. Its facets are chords of its rims, which may be exact
-    /// curves.
-    [[nodiscard]] bool is_of_chords(FaceId face) const
+    /// The facets of a void face without an exact surface are chords of its rims, which may be exact curves.
+    /// Move the nodes inside such faces by what the nodes next above and below, on the rims, lie off the
+    /// facets.
+    void move_with_rims()
     {
-        return model_[face].origin == Origin::made_void && !model_[face].surface;
-    }
-
-    /// Move the nodes of a column that lie inside such a face by what the nodes next above and below, on its
-    /// rims, lie off the facets.
-    void move_with_rims(std::size_t i, const std::vector<char>& on_void)
-    {
-        const auto off_facets = [&](std::size_t k) -> Vec3 {
-            const std::size_t node = k * count_ + i;
-            const bool on_rim = k == 0 || k == layers_ || grid_.on_edge.contains(node);
-            if (!on_rim || begun_.given.has_node(k, i)) return Vec3::Zero();
-            const Vec2& at = grid_.place[node];
-            return mesh_.points[node] -
-                   points_at(model_, std::array{map_->locate(at.x(), at.y())}, false).front();
+        std::map<FaceId, Projector> projectors; // created on first use
+        const auto is_inside = [&](std::size_t node) {
+            const FaceId face = on_face_[node];
+            return face.valid() && model_[face].origin == Origin::made_void && !model_[face].surface;
         };
-        for (std::size_t low = 0, k = 1; k <= layers_; ++k) {
-            if (on_void[k * count_ + i] != 0) continue;
-            if (k > low + 1) {
-                const Vec3 below = off_facets(low), above = off_facets(k);
-                const double from = grid_.place[low * count_ + i].y(), to = grid_.place[k * count_ + i].y();
-                for (std::size_t j = low + 1; j < k; ++j) {
-                    const double share = (grid_.place[j * count_ + i].y() - from) / (to - from);
-                    point(j, i) += (1 - share) * below + share * above;
+        const auto off_facets = [&](std::size_t k, std::size_t i, FaceId face) -> Vec3 {
+            const bool on_rim = k == 0 || k == layers_ || grid_.on_edge.contains(k * count_ + i);
+            if (!on_rim || begun_.given.has_node(k, i)) return Vec3::Zero();
+            std::array foot{point(k, i)};
+            projectors.try_emplace(face, model_, std::vector{face}).first->second.project(foot, context_);
+            return point(k, i) - foot[0];
+        };
+        for (std::size_t i = 0; i < count_; ++i) {
+            for (std::size_t low = 0, k = 1; k <= layers_; ++k) {
+                if (is_inside(k * count_ + i)) continue;
+                if (k > low + 1) {
+                    const Vec3 below = off_facets(low, i, on_face_[(low + 1) * count_ + i]),
+                               above = off_facets(k, i, on_face_[(k - 1) * count_ + i]);
+                    const auto height = [&](std::size_t j) { return grid_.place[j * count_ + i].y(); };
+                    for (std::size_t j = low + 1; j < k; ++j) {
+                        const double share = (height(j) - height(low)) / (height(k) - height(low));
+                        point(j, i) += (1 - share) * below + share * above;
+                    }
                 }
+                low = k;
             }
-            low = k;
         }
     }
 
@@ -355,6 +350,7 @@ private:
     BegunWall begun_;
     geometry::MotionPointer motion_; ///< the motion that made the walls; null: none
     WallMesh mesh_;
+    std::vector<FaceId> on_face_; ///< for each node inside a face that is not flat, the face
     std::shared_ptr<const LinkingMap> map_;
     WallNet net_;
     StripGrid grid_;

@@ -88,19 +88,21 @@ private:
 /// The volume of a mesh, and that of the sealed shape.
 struct WholeVolume {
     double mesh = 0, sealed = 0;
+    bool in_pieces = false;
 };
 
-/// The volumes of the wholes to which parts belong, by name and number: pieces of one volume may exchange
-/// volume, because the faces between them are cuts. The number is 0 for a volume in pieces.
-std::map<std::pair<std::string, std::size_t>, WholeVolume> whole_volumes(
-    const std::vector<Swept>& parts, std::span<const AssemblyMember> members)
+/// The volumes of the wholes to which parts belong, by name. Pieces of one whole may exchange volume, because
+/// the faces between them are cuts.
+std::map<std::string, WholeVolume> whole_volumes(const std::vector<Swept>& parts,
+                                                 std::span<const AssemblyMember> members)
 {
-    std::map<std::pair<std::string, std::size_t>, WholeVolume> wholes;
+    std::map<std::string, WholeVolume> wholes;
     for (std::size_t p = 0; p < parts.size(); ++p) {
-        const std::string& whole = members[p].whole;
-        WholeVolume& sum = wholes[{whole.empty() ? members[p].region : whole, whole.empty() ? p + 1 : 0}];
+        const bool is_piece = !members[p].whole.empty();
+        WholeVolume& sum = wholes[is_piece ? members[p].whole : members[p].region];
         sum.mesh += parts[p].fidelity.volume;
         sum.sealed += parts[p].fidelity.sealed_volume;
+        sum.in_pieces = is_piece;
     }
     return wholes;
 }
@@ -175,8 +177,8 @@ private:
     {
         const auto before = whole_volumes(assembly_.parts, members_);
         return std::ranges::any_of(whole_volumes(parts, members_), [&](const auto& whole) {
-            const auto& [mesh, sealed] = whole.second;
-            return std::abs(mesh - sealed) >
+            const double sealed = whole.second.sealed;
+            return std::abs(whole.second.mesh - sealed) >
                    std::max(std::abs(before.at(whole.first).mesh - sealed), kSameVolume * sealed);
         });
     }
@@ -341,11 +343,11 @@ void note_lost_wholes(SweptAssembly& assembly, std::span<const AssemblyMember> m
 {
     for (const auto& [whole, volume] : whole_volumes(assembly.parts, members)) {
         const double lost = 1 - volume.mesh / volume.sealed;
-        if (whole.second != 0 || std::abs(lost) <= kVolumeNoted) continue;
+        if (!volume.in_pieces || std::abs(lost) <= kVolumeNoted) continue;
         assembly.report.push_back(
             formatted("note: {}: the meshes of the pieces together have {:.2g} % {} "
                       "volume than the sealed shape; use a smaller 'size' [sweep.volume]",
-                      whole.first, 100 * std::abs(lost), lost > 0 ? "less" : "more"));
+                      whole, 100 * std::abs(lost), lost > 0 ? "less" : "more"));
         log_line(context, assembly.report.back());
     }
 }

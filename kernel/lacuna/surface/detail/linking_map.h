@@ -27,6 +27,12 @@ struct WallPosition {
 std::vector<Vec3> points_at(const topology::Model& model, std::span<const WallPosition> places,
                             bool exact = true);
 
+/// The points of a side line, the shares of its length at which they lie, and their coordinates t.
+struct LineHeights {
+    std::vector<Vec3> points;
+    std::vector<double> shares, heights;
+};
+
 /// A linking surface mapped onto a strip. The coordinate s runs around the linking surface from 0 to 1 and is
 /// periodic. The coordinate t increases from 0 on the source rim to 1 on the target rim.
 ///
@@ -140,9 +146,8 @@ private:
     std::vector<Index> original_; ///< for each triangle of the tree, the triangle of the linking surface
     double width_ = 1, height_ = 1;
     double branch_ = 0;
-    std::vector<double> even_; ///< share of the walls' length at even steps of t; empty: equal to t
-    /// For each side line, the shares of its points, and their t; empty: equal to the shares.
-    std::vector<std::pair<std::vector<double>, std::vector<double>>> lines_;
+    std::vector<double> even_;       ///< share of the walls' length at even steps of t; empty: equal to t
+    std::vector<LineHeights> lines_; ///< for each side line; empty: t is the share
     double turn_ = 0, most_turned_ = 0;
     bool bends_ = false;
     std::vector<double> row_at_;               ///< t of each row of `columns_`
