@@ -187,4 +187,72 @@ do
   end, "the plane misses the volume", "closure.cut_misses")
 end
 
+-- Two products in an open carton, a lying cylinder that hovers and another cylinder or a box beside it. The
+-- ends of the products point the other way than the walls of the carton that they face.
+for n = 1, 6 do
+  local draw = check.random(400 + n)
+  local lying = n % 2 == 0
+  local path, far, up = params.scratch .. "/two.geo", draw(78, 84), draw(4, 8)
+  local radius, own = draw(9, 12), draw(6, 8)
+  check.write(path, ([[SetFactory("OpenCASCADE"); Box(1) = {-3,-3,-3, 136,66,63}; Box(2) = {0,0,0, 130,60,70};
+    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+    Cylinder(4) = {12,30,%g, 40,0,0, %g}; %s]]):format(radius + up, radius,
+    lying and ("Cylinder(5) = {%g,29,%g, 32,0,0, %g};"):format(far, own + up + 1, own)
+    or ("Box(5) = {%g,%g,0, 36,%g,%g};"):format(far, 29 - own, 2 * own, 2 * own)))
+  local model = lacuna.load(path)
+  local inside = model:faces { box = { { -0.1, -0.1, -0.1 }, { 130.1, 60.1, 60.1 } } }
+  local quality = model:open_volume { faces = inside }:sweep { size = 5 }:quality()
+  local taken = math.pi * radius ^ 2 * 40 + (lying and math.pi * own ^ 2 * 32 or 36 * (2 * own) ^ 2)
+  check.that(quality.certified and quality.min_scaled_jacobian >= 0.3,
+    ("two products %d: %g"):format(n, quality.min_scaled_jacobian))
+  check.near(quality.volume / (130 * 60 * 60 - taken), 1, 0.01)
+end
+
+-- A product of facets whose edges are all rounded is one smooth face: only the flat part of it is in contact.
+do
+  local model, around, arc, radius, high, round = lacuna.model(), 24, 4, 15, 18, 5
+  local rings, taken = {}, 0
+  for k = 0, arc do
+    local t = math.pi / 2 * k / arc
+    rings[k + 1] = { radius - round + round * math.sin(t), round - round * math.cos(t) }
+    rings[2 * arc + 2 - k] = { rings[k + 1][1], high - rings[k + 1][2] }
+  end
+  local points, cells = {}, {}
+  for j, ring in ipairs(rings) do
+    for i = 0, around - 1 do
+      local t = 2 * math.pi * i / around
+      points[#points + 1] = { 30 + ring[1] * math.cos(t), 30 + ring[1] * math.sin(t), ring[2] }
+      local a, b = (j - 1) * around + i + 1, (j - 1) * around + (i + 1) % around + 1
+      if rings[j + 1] then
+        cells[#cells + 1] = { a, b, b + around }
+        cells[#cells + 1] = { a, b + around, a + around }
+      end
+    end
+    local next = rings[j + 1] or ring
+    taken = taken + (next[2] - ring[2]) * (ring[1] ^ 2 + ring[1] * next[1] + next[1] ^ 2) / 3
+      * around / 2 * math.sin(2 * math.pi / around)
+  end
+  for _, j in ipairs { 0, #rings - 1 } do
+    local height = rings[j + 1][2]
+    points[#points + 1] = { 30, 30, height }
+    for i = 0, around - 1 do
+      local a, b = j * around + i + 1, j * around + (i + 1) % around + 1
+      cells[#cells + 1] = height == 0 and { b, a, #points } or { a, b, #points }
+    end
+  end
+  model:add_face { name = "product", points = points, cells = cells }
+  for _, side in ipairs { { 0, 0, 60, 0 }, { 60, 0, 60, 60 }, { 60, 60, 0, 60 }, { 0, 60, 0, 0 } } do
+    local a, b, c, d = table.unpack(side)
+    model:add_face { points = { { a, b, 0 }, { c, d, 0 }, { c, d, 50 }, { a, b, 50 } },
+      cells = { { 1, 3, 2 }, { 1, 4, 3 } } }
+  end
+  for _, z in ipairs { 0, 50 } do
+    model:add_face { points = { { 0, 0, z }, { 60, 0, z }, { 60, 60, z }, { 0, 60, z } },
+      cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+  end
+  local quality = model:open_volume():sweep { size = 5 }:quality()
+  check.that(quality.certified and quality.min_scaled_jacobian >= 0.25, quality.min_scaled_jacobian)
+  check.near(quality.volume / (60 * 60 * 50 - taken), 1, 0.01)
+end
+
 check.done()

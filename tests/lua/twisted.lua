@@ -43,4 +43,18 @@ for _, case in ipairs { { lobes = 0, holes = 2 }, { lobes = 0, holes = 3 }, { lo
       ("%d lobes, %d holes: %s"):format(case.lobes, case.holes, quality.min_scaled_jacobian))
 end
 
+-- A duct of 40 x 20 that becomes one of 20 x 40: a quarter turn to the left and one to the right fit equally
+-- well, so its walls are not twisted; a note tells that other pairs of vertices fit.
+do
+  local model = lacuna.model()
+  for name, side in pairs { low = { 20, 10, 0 }, high = { 10, 20, 30 } } do
+    local a, b, z = table.unpack(side)
+    model:add_face { name = name, points = { { -a, -b, z }, { a, -b, z }, { a, b, z }, { -a, b, z } },
+      cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+  end
+  local volume = model:open_volume { source = "low", target = "high" }
+  check.equal(#volume:match().notes, 1)
+  check.near(volume:sweep { size = 5 }:quality().volume / 26000, 1, 1e-6)
+end
+
 check.done()

@@ -130,7 +130,7 @@ bool prove(FlatFilling& filling, const RunContext& context)
     volume.model = with_loops(std::move(volume.model), context);
     for (std::size_t e = 0; e < volume.model.edges.size(); ++e)
         if (volume.model.uses_of_edge(EdgeId(e)).size() > 2) return false; // no skin, and not to be oriented
-    orient_consistently(volume.model);
+    orient_faces(volume.model, context);
     filling.closure.watertight = is_watertight(volume) && !first_crossing(volume, context);
     return filling.closure.watertight;
 }
@@ -217,7 +217,6 @@ std::optional<FlatFilling> fill_free_loops(const Model& model, const std::vector
 {
     auto filled = fill_loops(model, faces, missing, context);
     if (!filled || !prove(*filled, context)) return std::nullopt;
-    orient_skin(filled->volume.model, context);
     note_closed_holes(model, faces, filled->volume, RolesBy::finding, filled->closure);
     note_open_rims(filled->volume, RolesBy::finding, filled->closure);
     return filled;

@@ -16,6 +16,7 @@
 #include <lacuna/topology/shared/face_radius.h>
 #include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -165,14 +166,19 @@ public:
             members[b].volume = &given[b];
             members[b].region = "the body of " + name_of(model_, bodies_[b].faces.front());
         }
+        for (std::size_t b = 0; b < bodies_.size(); ++b)
+            for (std::size_t other = 0; other < bodies_.size(); ++other)
+                if (other != b && bodies_[b].box.intersects(bodies_[other].box))
+                    split_off_contacts(b, given[b], given[other].model);
         sweep::ImprintedVolumes split = sweep::imprinted_parts(
             members, [&](const SharedFace& pair, bool same_side) { return is_contact(pair, same_side); },
             context_);
         if (split.shared.empty()) return std::nullopt;
         volumes_ = std::move(split.volumes);
         std::vector<Vec3> on_edges;
-        for (const Edge& edge : model_.edges)
-            for (const Index p : edge.points) on_edges.push_back(model_.at(p));
+        for (const OpenVolume& own : given)
+            for (const Edge& edge : own.model.edges)
+                for (const Index p : edge.points) on_edges.push_back(own.model.at(p));
         const geometry::FacetTree tree = geometry::point_tree(on_edges);
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
             for (const FaceId parent : split.parents[b]) bodies_[b].faces.push_back(original(b, parent));
@@ -186,6 +192,53 @@ private:
     [[nodiscard]] FaceId original(std::size_t body, FaceId face) const
     {
         return bodies_[body].faces[face.index()];
+    }
+
+    /// Split the facets of bent faces that lie in flat faces of another body off the rest of these faces. A
+    /// product whose edges are all rounded is one smooth face of facets, and only the flat part of it touches
+    /// what it stands on.
+    void split_off_contacts(std::size_t body, OpenVolume& volume, const Model& other)
+    {
+        const std::size_t faces = volume.model.faces.size();
+        for (const FaceId flat : all_faces(other)) {
+            const auto plane = plane_of(other, flat);
+            if (!plane) continue;
+            for (std::size_t f = 0; f < faces; ++f) {
+                if (volume.model.faces[f].surface || plane_of(volume.model, FaceId(f))) continue;
+                split_off_plane(body, volume, FaceId(f), *plane, box_of(other, flat));
+            }
+        }
+    }
+
+    void split_off_plane(std::size_t body, OpenVolume& volume, FaceId face, geometry::Plane plane,
+                         const Eigen::AlignedBox3d& within)
+    {
+        const Model& model = volume.model;
+        const auto lies_in = [&](const Triangle& t) {
+            return std::ranges::all_of(t, [&](Index p) {
+                return std::abs(geometry::height(plane, model.at(p))) <= model.tolerance &&
+                       within.exteriorDistance(model.at(p)) <= model.tolerance;
+            });
+        };
+        const std::vector<Triangle>& facets = model[face].triangles;
+        const auto first = std::ranges::find_if(facets, lies_in);
+        if (first == facets.end()) return;
+        const Vec3 &a = model.at((*first)[0]), &b = model.at((*first)[1]), &c = model.at((*first)[2]);
+        if ((b - a).cross(c - a).dot(plane.normal) > 0) plane.normal = -plane.normal;
+        // Turned over, the facets in the plane count as behind it and those beside them as in front of it.
+        Model turned = model;
+        flip_faces(turned, {face});
+        std::vector<SectionWalk> walks = section_walks(turned, {face}, plane, model.tolerance);
+        std::erase_if(walks, [](const SectionWalk& walk) {
+            return std::ranges::any_of(walk.places, [](const SectionPlace& place) { return place.b >= 0; });
+        });
+        ModelBuilder builder(model);
+        const WalkImprint made = imprint_walks(builder, walks, plane, model.tolerance, context_);
+        for (std::size_t f = volume.role.size(); f < made.parent.size(); ++f) {
+            bodies_[body].faces.push_back(original(body, made.parent[f]));
+            volume.role.push_back(Role::wall);
+        }
+        volume.model = std::move(builder).finish();
     }
 
     /// Whether the corners of two round faces show that a gap separates their surfaces. Facets of such faces
@@ -224,7 +277,7 @@ private:
 
     /// Remove the points of lines that divide flat faces, except points on edges of the model. A line and the
     /// rim that it follows then become one edge.
-    /// @param tree  tree of the points on the model's edges
+    /// @param tree  tree of the points on the edges of the bodies
     void take_rims_of_others(std::size_t b, const std::vector<FaceId>& parents,
                              const geometry::FacetTree& tree)
     {
@@ -236,6 +289,8 @@ private:
             std::vector<FaceId> parts;
             for (const FaceId part : all_faces(model))
                 if (original(b, part) == original(b, face)) parts.push_back(part);
+            if (!std::ranges::all_of(parts, [&](FaceId part) { return lies_in_plane(model, part, *flat); }))
+                continue;
             std::vector<EdgeUse> lines;
             for (std::size_t e = 0; e < model.edges.size(); ++e)
                 if (std::ranges::all_of(model.uses_of_edge(EdgeId(e)), [&](const FaceUse& use) {

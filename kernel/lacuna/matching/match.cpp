@@ -116,7 +116,10 @@ private:
         if (arrangement != nullptr) {
             found = {arrangement->alignment};
             if (arrangement->next) found.push_back(*arrangement->next);
-            if (!flip && chosen_.size() == 1) prefer_given_sides(s, t, found);
+            if (!flip && chosen_.size() == 1) {
+                prefer_unturned(s, t, found);
+                prefer_given_sides(s, t, found);
+            }
         }
         if (flip || arrangement == nullptr) {
             std::optional<bool> backward = backward_;
@@ -181,6 +184,17 @@ private:
         for (const std::size_t other : nearest(s, [&](std::size_t o) { return aligned_[o]; }))
             known.add(sampled_[other]);
         return known;
+    }
+
+    /// If a turn to the left and a turn to the right fit equally well, nothing tells which of them is meant:
+    /// prefer the alignment that turns least. Example: a duct of 40 x 20 that becomes one of 20 x 40.
+    void prefer_unturned(std::size_t s, std::size_t t, std::vector<Alignment>& found) const
+    {
+        const Alignment likeliest = found.front();
+        if (found.size() < 2 || sureness(likeliest.score, found[1].score) > kFileAccuracy) return;
+        const std::vector<Alignment> all = alignments_of(problem_, s, t, true, likeliest.backward);
+        const Alignment& least = *std::ranges::min_element(all, {}, turn_of);
+        if (turn_of(least) + kAsMuch < turn_of(likeliest)) found = {least, likeliest};
     }
 
     /// If several alignments fit about as well, prefer the one under which the given meshes of both ends

@@ -12,6 +12,7 @@
 #include <lacuna/topology/detail/end_costs.h>
 #include <lacuna/topology/detail/wall_parts.h>
 #include <lacuna/topology/detail/wall_tally.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -550,7 +551,7 @@ std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector
 {
     Model part = extract(model, faces);
     check_cancelled(context);
-    orient_consistently(part);
+    orient_faces(part, context);
     std::vector<RoleCandidate> candidates = candidates_of(part, false, options, context);
     if (candidates.empty()) candidates = candidates_of(part, true, options, context);
     for (RoleCandidate& candidate : candidates) {

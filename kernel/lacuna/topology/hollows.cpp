@@ -247,6 +247,14 @@ void orient_skin(Model& model, const RunContext& context)
         if ((volume_integral(model, parts[p]) > 0) == inner[p]) flip_faces(model, parts[p]);
 }
 
+void orient_faces(Model& model, const RunContext& context)
+{
+    orient_consistently(model);
+    for (std::size_t e = 0; e < model.edges.size(); ++e)
+        if (model.uses_of_edge(EdgeId(e)).size() == 1) return;
+    orient_skin(model, context);
+}
+
 bool is_listed_before(const std::vector<FaceId>& a, const std::vector<FaceId>& b)
 {
     return a.front() != b.front() ? a.front() < b.front() : a.size() > b.size();

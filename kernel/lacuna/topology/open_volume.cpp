@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/topology/shared/gaps.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -325,7 +326,7 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
     check_cancelled(context);
     volume.model = extract(model, faces);
     check_cancelled(context);
-    orient_consistently(volume.model);
+    orient_faces(volume.model, context);
     check_cancelled(context);
     check_walls_touch(volume);
     check_ends_apart(volume);

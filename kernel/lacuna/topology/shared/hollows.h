@@ -20,6 +20,11 @@ std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<
 /// @pre  the faces of each connected part are oriented consistently.
 void orient_skin(Model& model, const RunContext& context = {});
 
+/// Orient the faces of each connected part consistently and, if no edge is free, out of the volume that they
+/// enclose (`orient_skin()`).
+/// @throw InvalidInput  as `orient_consistently()`
+void orient_faces(Model& model, const RunContext& context = {});
+
 /// Faces of a solid around a hollow, see `hollows()`.
 struct Hollow {
     std::vector<FaceId> faces;  ///< ascending
