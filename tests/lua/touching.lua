@@ -255,4 +255,14 @@ do
   check.near(quality.volume / (60 * 60 * 50 - taken), 1, 0.01)
 end
 
+-- A pocket with a slot in its side up to the mouth is one cavity first, then each part alone.
+do
+  local path = params.scratch .. "/slotted.geo"
+  check.write(path, [[SetFactory("OpenCASCADE"); Box(1) = {0,0,0, 60,50,40}; Box(2) = {10,10,20, 30,30,20};
+    Box(3) = {40,20,30, 20,10,10}; BooleanDifference(4) = { Volume{1}; Delete; }{ Volume{2,3}; Delete; };]])
+  local found = lacuna.load(path):cavities()
+  check.near(found[1].volume / (30 * 30 * 20 + 20 * 10 * 10), 1, 1e-6)
+  check.equal(#found, 3)
+end
+
 check.done()

@@ -35,8 +35,8 @@ struct Candidate {
     double volume = 0; ///< about the volume [model length³]
 };
 
-/// Hollows with the bodies that stand in them, and those that share a whole rim merged, each before its
-/// parts; in the order of their first faces.
+/// Hollows with the bodies that stand in them, and those that share edges merged, each before its parts; in
+/// the order of their first faces.
 std::vector<Candidate> candidates(const Model& model, const RunContext& context)
 {
     std::vector<Hollow> found = hollows(model, context);

@@ -323,16 +323,12 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
 
 std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows)
 {
-    std::map<std::set<EdgeId>, std::size_t> first; // first hollow with a rim of these edges
+    std::map<EdgeId, std::size_t> first; // first hollow with this edge on a rim
     geometry::UnionFind hang(hollows.size());
-    for (std::size_t h = 0; h < hollows.size(); ++h) {
-        for (const Rim& rim : rims(model, hollows[h].faces)) {
-            std::set<EdgeId> edges;
-            for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
-            const auto [known, fresh] = first.emplace(std::move(edges), h);
-            if (!fresh) hang.unite_least(known->second, h);
-        }
-    }
+    for (std::size_t h = 0; h < hollows.size(); ++h)
+        for (const Rim& rim : rims(model, hollows[h].faces))
+            for (const EdgeUse& use : rim.uses)
+                hang.unite_least(first.emplace(use.edge, h).first->second, h);
     std::vector<std::size_t> joined;
     for (std::size_t h = 0; h < hollows.size(); ++h) joined.push_back(hang.find(h));
     return joined;

@@ -21,8 +21,8 @@ struct Cavity {
 };
 
 /// The cavities of the solids of a model, in the order of their first faces. Candidates are the hollows of
-/// topology::hollows(). Hollows that share whole rims are also merged into one further candidate, which
-/// comes before its parts. A candidate is a cavity if it has no mouth, or if find_readings() finds exactly
+/// topology::hollows(). Hollows that share edges are also merged into one further candidate, which comes
+/// before its parts. A candidate is a cavity if it has no mouth, or if find_readings() finds exactly
 /// one void. The faces include those of other bodies of the model that lie in the cavity, such as boards in
 /// a tray.
 /// @throw Cancelled

@@ -48,13 +48,13 @@ bool is_listed_before(const std::vector<FaceId>& a, const std::vector<FaceId>& b
 /// @note  Near linear in facets.
 std::vector<Hollow> hollows(const Model& model, const RunContext& context = {});
 
-/// Group hollows that share a whole rim, directly or through other hollows, such as a bore and its
-/// counterbore. @return  for each hollow, the index of the first hollow of its group.
+/// Group hollows that share an edge, directly or through other hollows, such as a bore and its counterbore,
+/// or a pocket and a slot in its side. @return  for each hollow, the index of the first hollow of its group.
 std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows);
 
 /// The faces of the cavity to which the given faces of a closed skin belong:
 /// - the faces of the hollows that contain the given faces;
-/// - the faces of hollows that share a whole rim with these hollows, such as a counterbore;
+/// - the faces of hollows that share an edge with these hollows, such as a counterbore;
 /// - the faces of bodies that stand in the cavity and do not reach its mouths, such as a post.
 /// @return ascending; empty if the faces lie in no hollow.
 /// @throw Cancelled
