@@ -128,18 +128,20 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
     const bool cuts = may_cut(volume, asked.options.fallback == sweep::Fallback::mixed);
     std::optional<Message> no_ends = volume.no_roles, why = no_ends;
     std::vector<closure::StepPiece> pieces;
-    if (!no_ends && has_pieces(volume, context)) {
-        try {
+    const auto try_sweep = attempt([&] {
+        if (no_ends) return;
+        if (has_pieces(volume, context)) {
             pieces = cut_into_pieces(volume, context);
             for (const closure::StepPiece& piece : pieces)
                 if (meshes && cuts && !why) why = follow_walls(piece.volume, context).refused;
-        } catch (const NotSweepable& error) {
-            if (!cuts) throw;
-            why = no_ends = error.message();
+        } else if (cuts && meshes && !volume.along && !volume.volume.full_turn) {
+            volume = close(volume, {}, context);
+            why = why_no_sweep(volume, context);
         }
-    } else if (!no_ends && cuts && meshes && !volume.along && !volume.volume.full_turn) {
-        volume = close(std::move(volume), {}, context);
-        why = why_no_sweep(volume, context);
+    });
+    if (!try_sweep) {
+        if (!cuts) try_sweep.raise();
+        why = no_ends = try_sweep.why;
     }
     if (why && meshes) {
         std::vector<closure::StepPiece> swept = swept_pieces(volume, *why, asked.options, context);
