@@ -68,4 +68,31 @@ for name, parts in pairs(ducts) do
     check.that(quality.mean_scaled_jacobian > 0.95, name)
   end
 end
+
+--- The lines of a .geo file for a duct of a x b with a bend between two legs; `name` begins its names.
+local function bent(name, rectangle, a, b)
+  local lines = ("Rectangle(N) = {X, Y, 0, A, B}; la[] = Extrude {0, 0, 20} { Surface{N}; };"
+    .. "lb[] = Extrude { {0, 1, 0}, {12, 0, 20}, Pi / 2 } { Surface{la[0]}; };"
+    .. "lc[] = Extrude {60, 0, 0} { Surface{lb[0]}; };"
+    .. "all[] = BooleanUnion{ Volume{la[1]}; Delete; }{ Volume{lb[1], lc[1]}; Delete; };\n")
+  local values = { N = rectangle, X = -a / 2, Y = -b / 2, A = a, B = b }
+  return (lines:gsub("%f[%w][NXYAB]%f[%W]", values):gsub("%f[%w](%l+)%[", name .. "%1["))
+end
+
+-- A closed duct is swept from side to side: the rows of its flat bent sides stay straight across the bend.
+-- With its wall, it is swept along as well.
+local inner, outer = bent("i", 101, 8, 6), bent("o", 102, 14, 12)
+local kernel, whole = 'SetFactory("OpenCASCADE");\n', 80 + 6 * math.pi
+check.write(path, kernel .. inner)
+for _, size in ipairs { 1.5, 3 } do
+  local quality = lacuna.load(path):open_volume():sweep({ size = size }):quality()
+  check.near(quality.volume / (48 * whole), 1, 0.01)
+  check.that(quality.min_scaled_jacobian > 0.95,
+    ("across at %g: %g"):format(size, quality.min_scaled_jacobian))
+end
+check.write(path, kernel .. inner .. outer
+  .. "BooleanFragments{ Volume{iall[]}; Delete; }{ Volume{oall[]}; Delete; }\n")
+local both = lacuna.assembly(lacuna.load(path):bodies()):sweep({ size = 1.5 }):quality()
+check.near(both.volume / (14 * 12 * whole), 1, 0.01)
+check.that(both.min_scaled_jacobian > 0.6 and both.mean_scaled_jacobian > 0.95, both.min_scaled_jacobian)
 check.done()

@@ -122,7 +122,7 @@ TEST_CASE("more than 50 million cells are refused unless both the size and the l
                     if (counted) options.layers.count = 1000;
                     if (counted) side = std::sqrt(base * options.layers.count / cells);
                     if (sized) options.size = [side](const Vec3&) { return side; };
-                    sweep::KnownLinks links(volume, true);
+                    sweep::KnownLinks links(volume);
                     const sweep::ExpectedCells found =
                         sweep::source_size(volume, options, links, {}).expected;
                     if (sized && counted) CHECK(found.all == doctest::Approx(cells).epsilon(0.01));
@@ -149,7 +149,7 @@ TEST_CASE("sides for a turn count among the cells to be expected, and counts of 
     const auto volume = test::sealed({.sides = 0, .cuts = 6});
     double before = 0;
     for (const int curvature : {12, 100, 10000, 10000000}) {
-        sweep::KnownLinks links(volume, true);
+        sweep::KnownLinks links(volume);
         SweepOptions options;
         options.curvature = curvature;
         const double now = sweep::source_size(volume, options, links, {}).expected.all;

@@ -5,6 +5,7 @@
 #include <lacuna/quads/shared/submap.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +18,29 @@ using namespace topology;
 
 namespace {
 
+std::vector<EdgeUse> side_uses(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
+{
+    std::vector<EdgeUse> uses;
+    const std::size_t n = loop.uses.size();
+    for (std::size_t i = corners[side]; i != corners[(side + 1) % corners.size()]; i = (i + 1) % n)
+        uses.push_back(loop.uses[i]);
+    return uses;
+}
+
 std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
 {
     std::vector<EdgeId> edges;
-    const std::size_t n = loop.uses.size();
-    for (std::size_t i = corners[side]; i != corners[(side + 1) % corners.size()]; i = (i + 1) % n)
-        edges.push_back(loop.uses[i].edge);
+    for (const EdgeUse& use : side_uses(loop, corners, side)) edges.push_back(use.edge);
     return edges;
+}
+
+/// Whether a line from the start of use i of a side is square to the side.
+bool is_square(const Model& model, const std::vector<EdgeUse>& side, std::size_t i, const Vec3& line)
+{
+    const std::vector<Vec3> before = use_places(model, side[i - 1]), after = use_places(model, side[i]);
+    const Vec3 along = (before.back() - before[before.size() - 2]).stableNormalized() +
+                       (after[1] - after.front()).stableNormalized();
+    return std::abs(along.dot(line)) < std::sin(kCreaseAngle * kDegree) * along.norm() * line.norm();
 }
 
 } // namespace
@@ -75,6 +92,26 @@ std::vector<SidePair> side_pairs(const Model& model, FaceId face, const std::vec
     const Loop& loop = model[face].loops[0];
     return {{side_edges(loop, corners, 0), side_edges(loop, corners, 2)},
             {side_edges(loop, corners, 1), side_edges(loop, corners, 3)}};
+}
+
+std::vector<SidePair> opposite_edges(const Model& model, FaceId face, const std::vector<std::size_t>& corners)
+{
+    std::vector<SidePair> pairs;
+    for (const std::size_t s : {0, 1}) {
+        const std::vector<EdgeUse> one = side_uses(model[face].loops[0], corners, s),
+                                   other = side_uses(model[face].loops[0], corners, s + 2);
+        const std::size_t n = one.size();
+        bool opposite = n == other.size();
+        for (std::size_t i = 1; i < n && opposite; ++i) {
+            const Vec3 across = use_places(model, other[n - i]).front() - use_places(model, one[i]).front();
+            opposite = is_square(model, one, i, across) && is_square(model, other, n - i, across);
+        }
+        std::vector<SidePair> own;
+        for (std::size_t i = 0; i < n && opposite; ++i)
+            own.push_back({{{one[i].edge}, {other[n - 1 - i].edge}}});
+        if (n > 1 && alike(model, own)) pairs.insert(pairs.end(), own.begin(), own.end());
+    }
+    return pairs;
 }
 
 std::vector<SidePair> grid_sides(const Model& model, FaceId face)

@@ -128,6 +128,10 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
             intervals.equations.push_back(std::move(equation));
         }
         if (mapped == grids.mapped.end()) continue;
+        for (const SidePair& edges : opposite_edges(task.model, face, seeds.corners.at(face)))
+            if (!is_fixed(seeds, edges[0].front()) && !is_fixed(seeds, edges[1].front()))
+                program.intervals.equations.push_back(
+                    {variables_of(seeds, edges[0], program), variables_of(seeds, edges[1], program)});
         program.grids.push_back(
             {variables_of(seeds, pairs[0][0], program), variables_of(seeds, pairs[1][0], program)});
         double quads = quads_asked(task.model, seeds, face);

@@ -59,19 +59,25 @@ std::vector<Vec3> mapped_points(const Model& model, const LinkingMap& map,
 
 } // namespace
 
+std::vector<double> shares_on_line(const OpenVolume& volume, const LinkingSurface& link, std::size_t line,
+                                   std::vector<double> heights, const RunContext& context)
+{
+    if (runs_straight(volume.model, link)) return heights;
+    const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
+    for (double& height : heights) height = map->share_of_line(line, map->from_even(height));
+    return heights;
+}
+
 std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const LinkingSurface& link, int steps,
                                             const RunContext& context)
 {
     std::vector<std::vector<Vec3>> columns;
-    const bool bends = link.straight_across && !link.lines.empty() && !runs_straight(volume.model, link);
-    std::shared_ptr<const LinkingMap> map = bends ? map_of(volume, link, true, context) : nullptr;
     for (std::size_t l = 0; l < link.lines.size(); ++l) {
         const Chain chain(volume.model, link.lines[l].line.uses);
         std::vector<double> at;
-        for (int i = 0; i <= steps; ++i) {
-            const double share = static_cast<double>(i) / steps;
-            at.push_back(chain.length() * (map ? map->share_of_line(l, map->from_even(share)) : share));
-        }
+        for (int i = 0; i <= steps; ++i) at.push_back(static_cast<double>(i) / steps);
+        at = shares_on_line(volume, link, l, std::move(at), context);
+        for (double& share : at) share *= chain.length();
         columns.push_back(chain.points(at));
     }
     if (!link.lines.empty()) return columns;
@@ -81,7 +87,7 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
         straight += (columns.back().back() - columns.back().front()).norm();
     }
     if (are_straight(volume.model, link, straight, columns.size())) return columns;
-    map = map_of(volume, link, true, context);
+    const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
     columns.clear();
     for (int k = 0; k < kChords; ++k) {
         std::vector<ColumnPlace> places;

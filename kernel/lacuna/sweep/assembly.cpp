@@ -137,7 +137,7 @@ private:
         ExpectedCells all;
         for (const AssemblyMember& member : members_) {
             if (member.fixed != nullptr || member.unswept) continue;
-            KnownLinks links(*member.volume, false);
+            KnownLinks links(*member.volume);
             const ExpectedCells own = source_size(*member.volume, member.options, links, context_).expected;
             all.all += own.all;
             all.unasked += own.unasked;

@@ -111,8 +111,11 @@ std::vector<AssemblyLevels::Contact> AssemblyLevels::contacts() const
         const std::optional<Span> a = span(face.a, face.face_a), b = span(face.b, face.face_b);
         if (!a || !b) continue;
         Contact contact{face.a, face.b, a->low, a->high, b->low, b->high};
-        if ((a->at_low - b->at_high).norm() < (a->at_low - b->at_low).norm())
-            std::swap(contact.from_b, contact.to_b);
+        const double to_low = (a->at_low - b->at_low).norm(), to_high = (a->at_low - b->at_high).norm();
+        // If the members are swept across each other, the lowest edges of one are no level of the other.
+        const Vec3 middle = (b->at_low + b->at_high) / 2;
+        if (!(std::min(to_low, to_high) < (a->at_low - middle).norm())) continue;
+        if (to_high < to_low) std::swap(contact.from_b, contact.to_b);
         found.push_back(contact);
     }
     return found;

@@ -172,7 +172,6 @@ private:
             for (const auto& [m, side] : lines->second) {
                 const bool by_levels = std::cmp_equal(counts_.heights()[m].size(), count);
                 const LayerSpec& spec = edges_.members()[m].options.layers;
-                if (spec.heights.empty() && spec.bias == 1 && !by_levels) continue;
                 LayerSpec whole = spec;
                 if (by_levels)
                     whole.heights = counts_.heights()[m];
@@ -180,6 +179,7 @@ private:
                     whole.count = count;
                 at = layer_heights(whole);
                 if (edges_.members()[m].volume->turned_round && !by_levels) reverse_heights(at);
+                at = counts_.on_line(m, side.edge, std::move(at));
                 if (side.reversed == run_alike(edges_[edges_.number(m, side.edge)], edge))
                     reverse_heights(at);
             }
@@ -227,11 +227,12 @@ private:
     /// heights of the member's layers, and the height nearest to each vertex is moved onto the vertex. If
     /// there are no heights, or two vertices share the nearest height, nodes are evenly spaced between
     /// vertices.
-    [[nodiscard]] std::vector<double> places_on(const std::vector<double>& ends, std::size_t m,
+    [[nodiscard]] std::vector<double> places_on(const std::vector<double>& ends, std::size_t m, EdgeId first,
                                                 std::size_t count) const
     {
         std::vector<double> at{0};
         at.insert(at.end(), counts_.heights()[m].begin(), counts_.heights()[m].end());
+        at = counts_.on_line(m, first, std::move(at));
         for (const double end : ends)
             *std::ranges::min_element(at, {}, [&](double height) { return std::abs(height - end); }) = end;
         return std::ranges::includes(at, ends) ? at : spread_between(ends, count);
@@ -258,7 +259,7 @@ private:
                                                       : static_cast<int>(counts_.heights()[m].size());
         for (const std::vector<EdgeUse>& line : lines) {
             const std::vector<double> ends = ends_along(m, line);
-            const std::vector<double> at = places_on(ends, m, index(plan.layers[m]));
+            const std::vector<double> at = places_on(ends, m, line.front().edge, index(plan.layers[m]));
             for (std::size_t u = 0; u < line.size(); ++u) {
                 const MemberEdge& edge = edges_[edges_.number(m, line[u].edge)];
                 const auto [found, fresh] = nodes.try_emplace(edges_.set_of(edges_.number(m, line[u].edge)));

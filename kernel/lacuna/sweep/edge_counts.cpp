@@ -10,6 +10,7 @@
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/shared/rim_breaks.h>
 #include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
@@ -77,6 +78,7 @@ EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
       context_(context),
       classes_(edges.size()),
       layers_(edges.members().size(), 1),
+      links_(edges.members().size()),
       levels_(edges.members(), edges.shared()),
       spacing_(default_sizes(edges))
 {
@@ -143,7 +145,8 @@ void EdgeCounts::join_by_sweep(std::size_t m)
 {
     std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
     std::map<EdgeId, bool> reversed; // on the source: the side corresponds to one of the other direction
-    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(*edges_.members()[m].volume);
+    std::vector<surface::LinkingSurface>& links = links_[m];
+    links = surface::linking_surfaces(*edges_.members()[m].volume);
     find_demands(m, links);
     plan_sides(m, links);
     levels_.read(m, links, context_);
@@ -194,6 +197,16 @@ void EdgeCounts::join_by_sweep(std::size_t m)
             for (const EdgeId part : parts) chain.parts.push_back(edges_.number(m, part));
         }
     }
+}
+
+std::vector<double> EdgeCounts::on_line(std::size_t m, EdgeId first, std::vector<double> heights) const
+{
+    for (const surface::LinkingSurface& link : links_[m])
+        for (std::size_t l = 0; l < link.lines.size(); ++l)
+            if (link.lines[l].line.uses.front().edge == first)
+                return surface::shares_on_line(*edges_.members()[m].volume, link, l, std::move(heights),
+                                               context_);
+    return heights;
 }
 
 void EdgeCounts::find_demands(std::size_t m, std::span<const surface::LinkingSurface> links)

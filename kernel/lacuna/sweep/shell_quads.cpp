@@ -92,7 +92,7 @@ ShellQuads shell_quads(const Model& model, const SweepOptions& options, const Ru
     OpenVolume faces;
     faces.model = model;
     faces.role.assign(model.faces.size(), Role::source);
-    KnownLinks links(faces, true);
+    KnownLinks links(faces);
     SweepOptions one_layer = options;
     one_layer.layers.count = 1;
     const SourceSize sizes = source_size(faces, one_layer, links, context);

@@ -222,7 +222,7 @@ Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunConte
         throw NotSweepable(Message("sweep.not_closed", "the volume is not sealed")
                                .remedy("close it first with volume:close()"));
     }
-    KnownLinks links(volume, !asked.beside.settle);
+    KnownLinks links(volume);
     SweepOptions options = with_layer_intervals(volume, asked, links, context);
     const surface::SizeField size = options.size ? surface::checked_size(options.size, "size")
                                                  : surface::even_size(surface::default_size(volume).length);

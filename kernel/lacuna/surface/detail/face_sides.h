@@ -37,6 +37,13 @@ std::optional<std::vector<std::size_t>> four_corners(const topology::Model& mode
 std::vector<SidePair> side_pairs(const topology::Model& model, FaceId face,
                                  const std::vector<std::size_t>& corners);
 
+/// The pairs of edges of a four-sided face that lie opposite each other: both sides have equally many edges
+/// of similar lengths, and the lines between their vertices are square to both. If such edges get equal
+/// numbers of quads, the rows run straight across the bends of the face.
+/// @pre  corners from `four_corners()`.
+std::vector<SidePair> opposite_edges(const topology::Model& model, FaceId face,
+                                     const std::vector<std::size_t>& corners);
+
 /// The pairs of sides of a rectilinear face: a face whose loops turn by multiples of 90° at its vertices. For
 /// each loop and each of the grid's two directions, there is a pair: first the edges of the loop that run in
 /// this direction, then the edges that run back. Empty if the angle at a vertex does not fit a grid, or if a

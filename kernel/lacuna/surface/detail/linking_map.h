@@ -38,9 +38,9 @@ struct LineHeights {
 ///
 /// At first both coordinates are harmonic functions (mean value weights). The segments prescribe their values
 /// on the rims. On each side line, s is constant, and t is the share of the line's length; but where walls
-/// bend (`LinkingSurface::straight_across`), t on the lines is harmonic too, so that layers run straight
-/// across the bend, although the line on its inside is shorter. The map is one to one (Tutte) for any
-/// arrangement of wall faces: stacked, side by side, or with seams that do not line up.
+/// bend, t on the lines is harmonic too, so that layers run straight across the bend, although the line on
+/// its inside is shorter. The map is one to one (Tutte) for any arrangement of wall faces: stacked, side by
+/// side, or with seams that do not line up.
 ///
 /// On the inner side of a bend, lines of constant harmonic s lie close together. If the walls are not
 /// straight, s is therefore replaced by a share of length along each section. Section: a line of constant t.

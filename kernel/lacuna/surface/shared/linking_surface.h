@@ -56,9 +56,6 @@ struct LinkingSurface {
     /// walls from the start of `source` to the target rim ends at this position, in turns around the ring;
     /// whole turns are counted. Empty if corresponding vertices of both rims are given.
     std::optional<double> branch{};
-    /// Whether layers run straight across bends of the walls (`LinkingMap`). If not, they lie at equal shares
-    /// of the side lines' lengths, by which members of an assembly exchange levels of layers.
-    bool straight_across = false;
     /// The map of the walls, kept by `map_of()`. A linking surface must not be used by two threads at once.
     mutable std::shared_ptr<const LinkingMap> map{};
 };

@@ -23,6 +23,13 @@ inline constexpr int kMostPerTurn = 128;
 std::vector<std::vector<Vec3>> wall_columns(const topology::OpenVolume& volume, const LinkingSurface& link,
                                             int steps, const RunContext& context = {});
 
+/// The shares of the length of a side line at heights of layers. They differ from the heights where the walls
+/// bend, so that layers run straight across the bends (`LinkingMap`).
+/// @param line  index in `link.lines`
+/// @param heights  in [0, 1], 0 at the source
+std::vector<double> shares_on_line(const topology::OpenVolume& volume, const LinkingSurface& link,
+                                   std::size_t line, std::vector<double> heights, const RunContext& context);
+
 /// steps + 1 rows of points from the source's rim to the target's rim. The first and the last row lie on the
 /// rims. The other rows are the images of even heights in the walls' harmonic map (`LinkingMap`).
 /// @throw Cancelled

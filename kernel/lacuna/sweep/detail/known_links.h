@@ -22,8 +22,7 @@ class KnownLinks {
 public:
     /// @param volume  must outlive this object, and must not move or change: linking surfaces refer to its
     ///         model.
-    /// @param alone  whether the volume is in no assembly.
-    KnownLinks(const topology::OpenVolume& volume, bool alone) : volume_(volume), alone_(alone) {}
+    explicit KnownLinks(const topology::OpenVolume& volume) : volume_(volume) {}
 
     /// The volume with source and target exchanged.
     const topology::OpenVolume& turned()
@@ -40,9 +39,7 @@ public:
     {
         const auto found = links_.find({&volume, turning});
         if (found != links_.end()) return found->second;
-        auto links = surface::linking_surfaces(volume, turning, {}, context);
-        for (surface::LinkingSurface& link : links) link.straight_across = alone_;
-        return links_[{&volume, turning}] = std::move(links);
+        return links_[{&volume, turning}] = surface::linking_surfaces(volume, turning, {}, context);
     }
 
     VolumePlan plan; ///< default-constructed: no requirements
@@ -55,7 +52,6 @@ public:
 
 private:
     const topology::OpenVolume& volume_;
-    bool alone_;
     std::optional<topology::OpenVolume> turned_;
     std::map<std::pair<const topology::OpenVolume*, int>, std::optional<SourceSize>> sizes_;
     std::map<std::pair<const topology::OpenVolume*, surface::Turning>, std::vector<surface::LinkingSurface>>
