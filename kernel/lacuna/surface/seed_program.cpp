@@ -107,6 +107,36 @@ void add_alike(const AlikeEdges& alike, Program& program)
     }
 }
 
+/// Require that the outer loop of a submapped face has at least two sides more in each direction than each of
+/// its holes: the grid runs round the hole in whole rows.
+/// @param pairs  `grid_sides()` of the face
+void add_rows_round_holes(const SeedTask& task, const std::vector<SidePair>& pairs, Seeds& seeds,
+                          Program& program)
+{
+    const auto along = [&](const SidePair& sides) {
+        const Edge& edge = task.model[sides[0].front()];
+        return Vec3(task.model.at(edge.points[1]) - task.model.at(edge.points[0])).stableNormalized();
+    };
+    const auto length = [&](std::size_t k) { return length_of(task.model, pairs[k][0]); };
+    std::size_t outer = 0;
+    for (std::size_t k = 0; k < pairs.size(); k += 2)
+        if (length(k) + length(k + 1) > length(outer) + length(outer + 1)) outer = k;
+    const auto is_open = [&](const std::vector<EdgeId>& side) {
+        return std::ranges::none_of(side, [&](EdgeId edge) { return is_fixed(seeds, edge); });
+    };
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        if (k / 2 == outer / 2) continue;
+        const bool same = std::abs(along(pairs[k]).dot(along(pairs[outer]))) > std::sqrt(0.5);
+        const std::vector<EdgeId>& round = pairs[same ? outer : outer + 1][0];
+        if (!is_open(round)) continue;
+        IntervalEquation equation{variables_of(seeds, round, program),
+                                  variables_of(seeds, pairs[k][0], program)};
+        equation.other.push_back(add_variable(program.intervals));
+        program.intervals.variables.back().least = 2;
+        program.intervals.equations.push_back(std::move(equation));
+    }
+}
+
 /// Require equal numbers of sides on opposite sides of mapped and submapped faces.
 void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Program& program)
 {
@@ -127,6 +157,7 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
             }
             intervals.equations.push_back(std::move(equation));
         }
+        if (pairs.size() > 2) add_rows_round_holes(task, pairs, seeds, program);
         if (mapped == grids.mapped.end()) continue;
         for (const SidePair& edges : opposite_edges(task.model, face, seeds.corners.at(face)))
             if (!is_fixed(seeds, edges[0].front()) && !is_fixed(seeds, edges[1].front()))

@@ -554,6 +554,9 @@ void EdgeCounts::find_dense()
                         dense[i] = std::max(dense[i], edges_[e].length / sizes.shape.at(points[i]));
                 }
     }
+    for (std::size_t e = 0; e < edges_.size(); ++e) // the rest of a bent edge still has its sides
+        if (const auto dense = dense_.find(class_of(e)); dense != dense_.end())
+            for (double& sides : dense->second) sides = std::max(sides, wanted(edges_[e]));
 }
 
 std::vector<double> EdgeCounts::spread(std::size_t e, int count) const
