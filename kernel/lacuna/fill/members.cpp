@@ -241,7 +241,13 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
                     throw InvalidInput(with_tets_as_remedy(*part.volume.no_roles, part.asked->options));
                 part.volume = close_to_sweep(part.volume, region, context);
             } else if (!part.volume.volume.full_turn) { // a full turn needs no closing
-                part.volume = close(part.volume, {}, context);
+                auto closed = attempt([&] { return close(part.volume, {}, context); });
+                if (closed)
+                    part.volume = std::move(*closed);
+                else if (topology::free_edges(part.volume.volume).empty()) // tetrahedra need no ends
+                    part.volume.no_roles = closed.why;
+                else
+                    closed.raise();
             }
         };
         topology::Model& model = part.volume.volume.model;
