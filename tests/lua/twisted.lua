@@ -57,4 +57,23 @@ do
   check.near(volume:sweep { size = 5 }:quality().volume / 26000, 1, 1e-6)
 end
 
+-- An L whose notch lies at the next corner above: the shapes fit after a quarter turn, which is noted.
+do
+  local model = lacuna.model()
+  local function corners(z, turned)
+    local points = { { 0, 0 }, { 30, 0 }, { 30, 10 }, { 10, 10 }, { 10, 30 }, { 0, 30 } }
+    for _, p in ipairs(points) do
+      local x, y = p[1] - 15, p[2] - 15
+      p[1], p[2], p[3] = turned and -y or x, turned and x or y, z
+    end
+    return points
+  end
+  for _, z in ipairs { 0, 30 } do
+    model:add_face { name = "z" .. z, points = corners(z, z > 0),
+      cells = { { 1, 2, 3 }, { 1, 3, 4 }, { 1, 4, 5 }, { 1, 5, 6 } } }
+  end
+  local notes = model:open_volume { source = "z0", target = "z30" }:match().notes
+  check.that(table.concat(notes, "\n"):find("is turned by 90°", 1, true))
+end
+
 check.done()

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -62,6 +63,23 @@ void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const
          source_loop(s), entity_of(model, problem.source[s].vertices.front()), start_on(best),
          best.shift == second.shift ? "the reverse direction" : start_on(second),
          best.backward == second.backward ? "" : " or match{ flip = … }"});
+}
+
+/// Report that no wall tells how far two loops are turned against each other, but that their shapes fit only
+/// if they are turned by more than an eighth of a turn about the sweep.
+void note_turn(const Problem& problem, std::size_t s, const Alignment& best, Match& match)
+{
+    if (!problem.led.from.empty() || problem.has_hard(s)) return;
+    const Vec3 normal = problem.source[s].area.stableNormalized();
+    const Eigen::Quaterniond turn(best.fit.rotation);
+    const Eigen::Quaterniond bend = Eigen::Quaterniond::FromTwoVectors(normal, turn * normal);
+    const double about = Eigen::AngleAxisd(bend.conjugate() * turn).angle() / std::numbers::pi;
+    if (!(about > 0.25 + kAsMuch)) return;
+    match.notes.push_back(
+        Message("matching.turned",
+                "{} is turned by {:.0f}° against the target about the sweep, because the shapes fit so",
+                source_loop(s), found(180 * about))
+            .remedy("match{{ method = \"nearest\" }} pairs the nearest vertices instead"));
 }
 
 /// Aligns every source loop with its target loop, and pairs the vertices accordingly.
@@ -147,6 +165,7 @@ private:
         if (!backward_) backward_ = flip ? !best.backward : best.backward;
         match_.loops[s].flipped = !best.backward;
         rate(s, found);
+        if (arrangement != nullptr) note_turn(problem_, s, best, match_);
         aligned_[s] = true;
         sampled_[s] = samples(problem_, s, t, best);
     }
