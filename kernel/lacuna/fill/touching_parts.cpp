@@ -14,6 +14,7 @@
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/section.h>
@@ -199,32 +200,42 @@ private:
     /// what it stands on.
     void split_off_contacts(std::size_t body, OpenVolume& volume, const Model& other)
     {
-        const std::size_t faces = volume.model.faces.size();
+        std::vector<std::pair<FaceId, Eigen::AlignedBox3d>> bent;
+        const auto add = [&](FaceId id) {
+            const Face& face = volume.model[id];
+            if (!face.surface && face.given_quads.empty() && !plane_of(volume.model, id))
+                bent.emplace_back(id, box_of(volume.model, id));
+        };
+        for (const FaceId face : all_faces(volume.model)) add(face);
         for (const FaceId flat : all_faces(other)) {
-            const auto plane = plane_of(other, flat);
+            const auto plane = bent.empty() ? std::nullopt : plane_of(other, flat);
             if (!plane) continue;
-            for (std::size_t f = 0; f < faces; ++f) {
-                if (volume.model.faces[f].surface || plane_of(volume.model, FaceId(f))) continue;
-                split_off_plane(body, volume, FaceId(f), *plane, box_of(other, flat));
+            Eigen::AlignedBox3d reach = box_of(other, flat);
+            reach.min().array() -= model_.tolerance;
+            reach.max().array() += model_.tolerance;
+            for (std::size_t b = 0; b < bent.size(); ++b) {
+                if (!bent[b].second.intersects(reach)) continue;
+                const std::size_t before = volume.role.size();
+                split_off_plane(body, volume, bent[b].first, *plane, reach);
+                for (std::size_t f = before; f < volume.role.size(); ++f) add(FaceId(f));
             }
         }
     }
 
+    /// @param within  only facets in this box count
     void split_off_plane(std::size_t body, OpenVolume& volume, FaceId face, geometry::Plane plane,
                          const Eigen::AlignedBox3d& within)
     {
         const Model& model = volume.model;
-        const auto lies_in = [&](const Triangle& t) {
+        const std::vector<Triangle>& facets = model[face].triangles;
+        const auto first = std::ranges::find_if(facets, [&](const Triangle& t) {
             return std::ranges::all_of(t, [&](Index p) {
                 return std::abs(geometry::height(plane, model.at(p))) <= model.tolerance &&
-                       within.exteriorDistance(model.at(p)) <= model.tolerance;
+                       within.contains(model.at(p));
             });
-        };
-        const std::vector<Triangle>& facets = model[face].triangles;
-        const auto first = std::ranges::find_if(facets, lies_in);
+        });
         if (first == facets.end()) return;
-        const Vec3 &a = model.at((*first)[0]), &b = model.at((*first)[1]), &c = model.at((*first)[2]);
-        if ((b - a).cross(c - a).dot(plane.normal) > 0) plane.normal = -plane.normal;
+        if (facet_area_vector(model, *first).dot(plane.normal) > 0) plane.normal = -plane.normal;
         // Turned over, the facets in the plane count as behind it and those beside them as in front of it.
         Model turned = model;
         flip_faces(turned, {face});
