@@ -221,6 +221,11 @@ void write_pieces(const fill::FilledParts& mesh, const WriteRequest& request, co
         options.periodic = mesh.swept.periodic;
         deck.columns = mesh.columns;
         for (const fill::Contact& contact : mesh.contacts) deck.contacts.push_back(contact.pair);
+        const auto named = std::ranges::find_if_not(mesh.materials, &std::string::empty);
+        if (named != mesh.materials.end() && format.is_numbered)
+            log_line(context, formatted("note: {}: the materials of several regions, such as {}, are not "
+                                        "written; assign them to the element sets of the regions",
+                                        path.text(), *named));
     }
     if (!mesh.tets.empty() || !mesh.interfaces.empty())
         return write_mixed(mesh, request, format, path, std::move(options), deck, context);
