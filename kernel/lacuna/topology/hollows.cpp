@@ -361,7 +361,8 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
     if (cavity.empty()) return {};
     for (const FaceId face : Standing(model, found, cavity).in(cavity)) cavity.push_back(face);
     for (FaceId& face : cavity) face = outer[face.index()];
-    std::sort(cavity.begin(), cavity.end());
+    std::sort(cavity.begin(), cavity.end()); // a face may be in several hollows
+    cavity.erase(std::unique(cavity.begin(), cavity.end()), cavity.end());
     return cavity;
 }
 
