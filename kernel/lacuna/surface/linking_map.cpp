@@ -120,7 +120,7 @@ double obliqueness(const std::vector<LineHeights>& lines, std::vector<double> Li
 std::vector<LineHeights> natural_heights(const Model& model, const std::vector<Triangle>& facets,
                                          const LinkingSurface& link, const RunContext& context)
 {
-    if (link.lines.size() < 2 || runs_straight(model, link)) return {};
+    if (link.lines.size() < 2 || !has_bent_line(model, link)) return {};
     geometry::HarmonicProblem problem;
     problem.points = model.points;
     problem.triangles = facets;

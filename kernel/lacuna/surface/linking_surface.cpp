@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/matching/shared/corners.h>
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/detail/linking_map.h>
@@ -304,6 +305,14 @@ bool runs_straight(const Model& model, const LinkingSurface& link)
             const Vec3 normal = facet_area_vector(model, t);
             return std::abs(normal.dot(way)) <= kParallel * normal.norm();
         });
+    });
+}
+
+bool has_bent_line(const Model& model, const LinkingSurface& link)
+{
+    return std::ranges::any_of(link.lines, [&](const LinkingLine& line) {
+        const std::vector<Vec3> places = places_at(model, use_points(model, line.line.uses));
+        return geometry::length(places) > (1 + kVisible) * (places.back() - places.front()).norm();
     });
 }
 

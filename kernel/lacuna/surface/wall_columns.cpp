@@ -62,7 +62,7 @@ std::vector<Vec3> mapped_points(const Model& model, const LinkingMap& map,
 std::vector<double> shares_on_line(const OpenVolume& volume, const LinkingSurface& link, std::size_t line,
                                    std::vector<double> heights, const RunContext& context)
 {
-    if (runs_straight(volume.model, link)) return heights;
+    if (!has_bent_line(volume.model, link)) return heights;
     const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
     for (double& height : heights) height = map->share_of_line(line, map->from_even(height));
     return heights;

@@ -110,7 +110,7 @@ private:
         }
         const bool simple = !panels.empty() &&
                             std::ranges::all_of(panels, [&](const auto& faces) { return is_simple(faces); });
-        if (!simple || !runs_straight(model_, link_)) {
+        if (!simple || has_bent_line(model_, link_)) {
             map_ = map_of(volume_, link_, void_edges, context_);
             if (!simple) net_ = wall_net(model_, link_, *map_);
         }
