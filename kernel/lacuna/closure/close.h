@@ -10,7 +10,7 @@
 //   shape of a void face                    void_geometry.cpp, transfinite_fill.cpp, rim_quadrics.cpp
 //   void edges along bent walls             follow.cpp
 //   missing end like the given one          moved_end.cpp
-//   flat faces in free loops                flat_fill.cpp, split_loop.cpp, touching_faces.cpp
+//   flat faces in free loops                flat_fill.cpp, touching_faces.cpp
 //   missing round and straight walls        round_walls.cpp, straight_walls.cpp; part of one: round_patch.cpp
 //   holes in ends; ends of walls alone      end_holes.cpp, class_five.cpp
 //   whether a closing is ambiguous          guesses.cpp, hole_guesses.cpp, membranes.cpp

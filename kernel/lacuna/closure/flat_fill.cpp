@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/flat_fill.h>
 
+#include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/sealing.h>
-#include <lacuna/closure/detail/split_loop.h>
 #include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/shared/attempt.h>
@@ -46,6 +46,28 @@ std::vector<Rim> simple_loops(const Model& model, const std::vector<Rim>& loops)
     return simple;
 }
 
+/// Whether the given sides of a flat face include a bent one between two that are not parallel, as in the
+/// sector of a ring. A missing face opposite may then be bent in the same way.
+bool is_of_ring(const Model& model, const Loop& loop)
+{
+    std::vector<EdgeUse> uses = loop.uses;
+    std::erase_if(uses, [&](const EdgeUse& use) { return model[use.edge].origin != Origin::given; });
+    const auto way = [&](const EdgeUse& use) {
+        const std::vector<Vec3> chain = use_places(model, use);
+        return (chain.back() - chain.front()).stableNormalized();
+    };
+    std::optional<std::size_t> corner;
+    for (std::size_t k = 1; k < uses.size(); ++k) {
+        if (!turns_sharply(model, uses[k - 1], uses[k])) continue;
+        if (corner && way(uses[*corner - 1]).cross(way(uses[k])).norm() > kParallel) {
+            const auto first = uses.begin() + static_cast<std::ptrdiff_t>(*corner);
+            if (!is_straight(model, {first, uses.begin() + static_cast<std::ptrdiff_t>(k)})) return true;
+        }
+        corner = k;
+    }
+    return false;
+}
+
 /// The free loops to fill. Loops in several planes are already split.
 struct ToFill {
     std::vector<Loop> flat, bent;
@@ -64,22 +86,24 @@ std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const
             result.flat.push_back({rim.uses});
             continue;
         }
-        const std::size_t edges = model.edges.size();
         if (missing == Missing::any && tells_face(model, {rim.uses})) {
             result.bent.push_back({rim.uses});
             continue;
         }
-        auto split = split_loop(model, rim);
-        if (missing == Missing::any && !split) {
-            auto parts = split_touching(model, rim, context);
-            split = SplitLoop{parts ? std::move(*parts) : std::vector<Loop>{{rim.uses}}};
-        }
-        if (!split) return std::nullopt;
+        const std::size_t edges = model.edges.size(), vertices = model.vertices.size();
+        auto parts = split_touching(model, rim, context);
+        if (!parts) parts = std::vector<Loop>{{rim.uses}};
         for (std::size_t e = edges; e < model.edges.size(); ++e) filling.closure.void_edges.emplace_back(e);
-        for (Loop& part : split->parts)
+        const bool may_bend = std::ranges::any_of(*parts, [&](const Loop& part) {
+            // One edge in a plane, such as the rim of a tube with a spike, may be that of a bent face.
+            return parts->size() == 2 ? part.uses.size() < 3 : is_of_ring(model, part);
+        });
+        for (Loop& part : *parts)
             (is_flat(model, {part.uses}) ? result.flat : result.bent).push_back(std::move(part));
+        if (missing == Missing::flat &&
+            (may_bend || !result.bent.empty() || model.vertices.size() > vertices))
+            return std::nullopt;
         filling.each_alone = false;
-        filling.channel = filling.channel || split->channel;
     }
     if (missing == Missing::any) result.flat = add_straight_walls(filling, std::move(result.flat), context);
     return result;
@@ -229,10 +253,7 @@ std::optional<FlatFilling> fill_missing_end(const OpenVolume& volume, const RunC
         }))
         return std::nullopt;
     auto filled = fill_loops(volume.model, all_faces(volume.model), Missing::flat, context);
-    if (!filled || filled->each_alone || filled->channel || !prove(*filled, context)) return std::nullopt;
-    const bool flat = std::ranges::all_of(
-        filled->closure.void_faces, [&](FaceId face) { return has_flat_loops(filled->volume.model, face); });
-    if (!flat) return std::nullopt;
+    if (!filled || filled->each_alone || !prove(*filled, context)) return std::nullopt;
     const std::vector<FaceId> source = volume.faces(Role::source);
     std::ranges::copy(volume.role, filled->volume.role.begin());
     part_end_from_walls(*filled, source);

@@ -14,7 +14,6 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/geometry/shared/segment.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -35,19 +34,6 @@ namespace {
 /// Largest number of candidates that are sealed, or checked if none can be sealed, the likeliest first.
 /// Sealing them takes some tenths of a second for 10,000 facets.
 constexpr std::size_t kMostSealed = 24;
-
-/// Whether a void edge is further from its chord than a half circle over the chord would be.
-bool detours(const Void& v)
-{
-    const Model& model = v.sealed.volume.model;
-    return std::ranges::any_of(v.sealed.closure.void_edges, [&](EdgeId edge) {
-        const std::vector<Vec3> chain = use_places(model, {edge, false});
-        return std::ranges::any_of(chain, [&](const Vec3& p) {
-            return geometry::distance_to_segment(p, chain.front(), chain.back()) >
-                   (chain.back() - chain.front()).norm() / 2;
-        });
-    });
-}
 
 double void_area(const Model& model, const Closure& closure)
 {
@@ -82,11 +68,10 @@ bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& fil
 
 /// The void closed by flat faces. Empty if each free loop is planar and gets a face of its own
 /// (`each_alone`), or if the void has no sweep direction.
-/// @param told  whether a void without ambiguous bends is known; a channel is then not tried
-std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vector<FaceId>& faces, bool told,
+std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vector<FaceId>& faces,
                               const RunContext& context)
 {
-    if (!filled || filled->each_alone || (told && filled->channel)) return std::nullopt;
+    if (!filled || filled->each_alone) return std::nullopt;
     const std::vector<RoleCandidate> sweeps = best_sweeps(filled->volume.model, context);
     if (sweeps.empty()) return std::nullopt;
     Void found;
@@ -97,9 +82,7 @@ std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vect
     found.sealed.volume = std::move(filled->volume);
     found.sealed.closure = std::move(filled->closure);
     found.sealed.enclosed = enclosed_volume(found.sealed.volume);
-    found.filled = filled->channel ? "sealed by two congruent ends and a wall between them"
-                                   : "sealed by flat faces in its free loops";
-    found.channel = filled->channel;
+    found.filled = "sealed by flat faces in its free loops";
     return found;
 }
 
@@ -126,7 +109,7 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     auto filled = unless_refused([&] {
                       return fill_free_loops(model, faces, Missing::any, context);
                   }).value_or(std::nullopt);
-    if (!filled || filled->channel || filled->closure.void_faces.empty()) return std::nullopt;
+    if (!filled || filled->closure.void_faces.empty()) return std::nullopt;
     const Model skin = filled->volume.model;
     const std::vector<Reading> whole = find_readings(skin, all_faces(skin), context);
     auto reading = without_ends(std::move(*filled));
@@ -298,8 +281,7 @@ std::vector<Reading> readings_of(const Model& model, const std::vector<FaceId>& 
     auto flat = fill_free_loops(model, faces, Missing::flat, context);
     if (flat && !may_enclose(flat->volume.model)) flat.reset();
     const bool dropped = prefer_flat(found, flat, context);
-    const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });
-    if (auto filled = fill_flat(std::move(flat), faces, told, context)) add_filled(found, std::move(*filled));
+    if (auto filled = fill_flat(std::move(flat), faces, context)) add_filled(found, std::move(*filled));
     take_moved(model, faces, found, context);
     std::erase_if(found, [&](const Void& v) { return !may_enclose(v.sealed.volume.model); });
     std::vector<Reading> readings;

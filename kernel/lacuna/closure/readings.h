@@ -71,9 +71,7 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// together with the mouth of the narrower bore.
 ///
 /// Flat faces may close the free loops without being one face for each loop: a face has a hole, or a loop
-/// lies in two planes. The volume that they enclose is a further void. A channel that lacks its ends and one
-/// wall is closed only if no unambiguous void was found. Its ends are the planar parts of its free loop,
-/// which must be congruent.
+/// runs around two or three flat faces. The volume that they enclose is a further void.
 ///
 /// Faces that are less than half of the skin of closed bodies, by area, show on which side their void lies:
 /// beside the material. If no void is found there, a groove around an axis is read as a full turn; otherwise

@@ -98,12 +98,11 @@ double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
     return candidate.cost + (whole > 0 ? kBentVoid * bent / whole : 0);
 }
 
-/// Whether a void was sealed with a role candidate and its void faces are nearly flat, or is a channel that
-/// was sealed by congruent ends.
+/// Whether a void was sealed with a role candidate and its void faces are nearly flat.
 bool is_settled(const Void& v)
 {
-    if (v.untold || !v.filled.empty()) return v.channel;
-    return std::ranges::all_of(v.sealed.closure.void_faces,
+    return !v.untold && v.filled.empty() &&
+           std::ranges::all_of(v.sealed.closure.void_faces,
                                [&](FaceId face) { return is_about_flat(v.sealed.volume.model, face); });
 }
 
@@ -239,7 +238,6 @@ void add_filled(std::vector<Void>& found, Void filled)
                filled.sealed.closure.void_faces.size() < known->sealed.closure.void_faces.size()) {
         if (known->untold) known->bent = std::exchange(known->ways, {});
         known->untold = filled.untold;
-        known->channel = filled.channel;
         known->first = std::move(filled.first);
         known->sealed = std::move(filled.sealed);
         known->filled = std::move(filled.filled);

@@ -15,7 +15,6 @@ namespace lacuna::closure {
 /// come first, in their order, then the new ones.
 struct FlatFilling : Closed {
     bool each_alone = true; ///< whether each loop is planar and has its own face
-    bool channel = false;   ///< whether a loop was split into two congruent ends and a wall
 };
 
 /// Loops that bound one flat face.
@@ -29,19 +28,16 @@ std::vector<FlatRegion> flat_regions(const topology::Model& model, const std::ve
 
 /// Kinds of missing faces that loops are filled with.
 enum class Missing {
-    flat, ///< flat faces
+    flat, ///< flat faces, without new vertices
     any,  ///< also round walls that join pairs of loops (see `add_tubes()`); any other loop gets one face of
           ///< the shape that the loop determines. If it determines none, `guess_of_bent()` reports the face.
 };
 
-/// Fill the free loops of some faces. Coplanar nested loops bound one flat face with holes. Some loops get
-/// several flat faces:
-/// - a loop in two planes, such as that of a missing end and an adjacent missing wall: two faces that meet in
-///   a straight void edge;
-/// - the loop of a groove that lacks its ends and its mouth: a face for each end and one for the mouth;
-/// - the loop of a channel that lacks its ends and one wall: two flat ends, and a wall that may be bent.
-/// @return  empty if a loop is neither flat nor one of these and `missing` is `flat`, or if the result is not
-///         sealed or crosses itself.
+/// Fill the free loops of some faces. Coplanar nested loops bound one flat face with holes. A loop around
+/// two or three missing faces is split (`split_touching()`), such as that of a missing end and an adjacent
+/// missing wall, or that of a groove that lacks its ends and its mouth.
+/// @return  empty if `missing` is `flat` and a face may be bent, or if the result is not sealed or crosses
+///         itself.
 /// @throw InvalidInput  the faces cannot be oriented.
 /// @throw Cancelled
 std::optional<FlatFilling> fill_free_loops(const topology::Model& model, const std::vector<FaceId>& faces,
@@ -52,9 +48,8 @@ std::optional<FlatFilling> fill_free_loops(const topology::Model& model, const s
 /// faces form the target. The other new faces are walls, such as the risers of a target at several heights.
 /// @return  empty in any of these cases:
 /// - every loop is planar and gets a face of its own;
-/// - a loop lies on a sphere, a circular cylinder or a cone, or belongs to a channel
-///   (`FlatFilling::channel`);
-/// - a loop of a new face is not flat;
+/// - a loop lies on a sphere, a circular cylinder or a cone;
+/// - a new face would be bent;
 /// - the result is not sealed;
 /// - the target is one connected part, but does not have as many loops as the source.
 std::optional<FlatFilling> fill_missing_end(const topology::OpenVolume& volume, const RunContext& context);

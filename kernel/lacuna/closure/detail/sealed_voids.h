@@ -31,8 +31,7 @@ struct Void {
     /// A given end that was moved to the missing end together with its holes without walls; invalid if there
     /// is none.
     FaceId through;
-    bool channel = false; ///< whether it was sealed by two congruent ends
-    std::string filled;   ///< how it was sealed, in words for the user; empty if by a role candidate
+    std::string filled; ///< how it was sealed, in words for the user; empty if by a role candidate
 };
 
 /// Whether a sealed volume is one that the given faces may enclose.
