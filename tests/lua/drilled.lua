@@ -160,6 +160,36 @@ do
     - (1 - math.pi / 4) * 0.16 * width - thick * (0.16 * math.pi + 1 + math.pi / 8), "angle")
 end
 
+-- A boss with a bore and two ribs on a plate: an edge of an end of one piece is a part of a side line of
+-- another piece.
+do
+  local side, thick, radius, high, width = 74.02, 9.21, 13.57, 20.86, 5.26
+  local inner, outer, top = 0.8 * radius, 0.42 * side, 0.8 * high
+  local geo = ("Box(1) = {%s};  Cylinder(2) = {%s};  Cylinder(3) = {%s};\n"):format(
+      row(-side / 2, -side / 2, 0, side, side, thick), row(0, 0, 0, 0, 0, thick + high, radius),
+      row(0, 0, -1, 0, 0, thick + high + 2, 0.55 * radius))
+  local beside = 0 -- area of one half of a rib outside the boss, times the height there
+  for i = 1, 1000 do
+    local y = width / 2 * (i - 0.5) / 1000
+    local share = (outer - math.sqrt(radius ^ 2 - y ^ 2)) / (outer - inner)
+    beside = beside + share ^ 2 * (outer - inner) * top / 2 * width / 2 / 1000
+  end
+  for n, way in ipairs { 1, -1 } do
+    local at = 100 * n
+    geo = geo .. ("Point(%d) = {%s};  Point(%d) = {%s};  Point(%d) = {%s};\n"):format(
+        at, row(way * inner, -width / 2, thick), at + 1, row(way * outer, -width / 2, thick),
+        at + 2, row(way * inner, -width / 2, thick + top))
+      .. ("Line(%d) = {%d,%d};  Line(%d) = {%d,%d};  Line(%d) = {%d,%d};\n"):format(
+        at, at, at + 1, at + 1, at + 1, at + 2, at + 2, at + 2, at)
+      .. ("Curve Loop(%d) = {%d:%d};  Plane Surface(%d) = {%d};\n"):format(at, at, at + 2, at, at)
+      .. ("g%d() = Extrude{0, %.15g, 0}{ Surface{%d}; };\n"):format(n, width, at)
+  end
+  geo = geo .. "BooleanUnion(50) = { Volume{1}; Delete; }{ Volume{2,g1[1],g2[1]}; Delete; };\n"
+    .. "BooleanDifference{ Volume{50}; Delete; }{ Volume{3}; Delete; }"
+  is_swept(params.scratch .. "/ribs.geo", geo, side ^ 2 * thick + math.pi * radius ^ 2 * high
+    - math.pi * (0.55 * radius) ^ 2 * (thick + high) + 4 * beside, "ribs")
+end
+
 check.family(params, function(number)
   if number == 81 then return "refused: hollows in both ends whose rims nearly coincide" end
   local random = check.random(104729 * number + 31)

@@ -119,14 +119,22 @@ public:
             for (const Vec3& end : {edges_[e].from, edges_[e].to})
                 corner_at(end, edges_.model(edges_[e].member).tolerance);
         }
+        for (const auto& [m, sides] : counts_.side_lines()) {
+            const bool beside = std::ranges::any_of(sides, [&, m = m](const EdgeUse& side) {
+                return counts_.is_planned(edges_.number(m, side.edge));
+            });
+            if (beside) plan.layers[m] = counts_.sides_of(edges_.number(m, sides.front().edge));
+        }
+        for (const auto& [m, lines] : counts_.stacks()) plan_stacks(m, lines, nodes, plan);
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             // The triangles of a face without quads only define its shape. Given nodes on its rim are dropped
             // if the planned number of sides differs.
             const bool gives_way = edges_.kept(e) == SameEdges::Kept::rim &&
                                    edges_.given_sides(e) != counts_.sides_of(e);
             const bool placed = (counts_.is_planned(e) || gives_way) && counts_.is_on_frame(e);
-            if (!placed && !is_kept_elsewhere(e)) continue;
             auto found = nodes.find(edges_.set_of(e));
+            const bool in_stack = found != nodes.end() && counts_.is_on_frame(e);
+            if (!placed && !in_stack && !is_kept_elsewhere(e)) continue;
             if (found == nodes.end()) {
                 const std::size_t one = placed ? exact_one(e) : *edges_.kept_one(edges_.set_of(e));
                 const int sides = placed ? counts_.sides_of(e) : edges_.given_sides(one);
@@ -141,13 +149,6 @@ public:
             }
             plan.nodes[edges_[e].member].push_back({edges_[e].edge, std::move(own)});
         }
-        for (const auto& [m, sides] : counts_.side_lines()) {
-            const bool beside = std::ranges::any_of(sides, [&, m = m](const EdgeUse& side) {
-                return counts_.is_planned(edges_.number(m, side.edge));
-            });
-            if (beside) plan.layers[m] = counts_.sides_of(edges_.number(m, sides.front().edge));
-        }
-        for (const auto& [m, lines] : counts_.stacks()) plan_stacks(m, lines, nodes, plan);
         plan.heights = counts_.heights();
         return plan;
     }

@@ -27,19 +27,12 @@ SameEdges::SameEdges(std::span<const AssemblyMember> members, std::span<const Sh
         for (std::size_t e = 0; e < model(m).edges.size(); ++e)
             edges_.push_back(member_edge(model(m), m, EdgeId(e)));
     }
-    const auto add_beside = [&](std::size_t m, FaceId face) {
+    for (const auto& [m, face] : beside)
         for (const EdgeId edge : rim_edges(model(m), face)) beside_.insert(number(m, edge));
-    };
-    for (const auto& [m, face] : beside) add_beside(m, face);
-    for (const SharedFace& face : shared) {
-        const bool a = is_wall(face.a, face.face_a), b = is_wall(face.b, face.face_b);
-        // If a wall is part of another member's end, its rows need a node at every vertex on its border.
-        if (a && !b) add_beside(face.a, face.face_a);
-        if (b && !a) add_beside(face.b, face.face_b);
-    }
     find_same();
     join_periodic();
     for (std::size_t e = 0; e < edges_.size(); ++e) set_.push_back(same_.find(e));
+    find_beside_ends();
     find_cusps();
     find_kept();
 }
@@ -139,6 +132,20 @@ void SameEdges::join_periodic()
     }
     for (const auto& [first, next] : joined) same_.unite(first, next);
     for (const auto& [first, ignored] : home) tied_.insert(same_.find(first));
+}
+
+void SameEdges::find_beside_ends()
+{
+    const auto is_on_end = [&](std::size_t e) {
+        const std::size_t m = edges_[e].member;
+        return std::ranges::any_of(model(m).uses_of_edge(edges_[e].edge),
+                                   [&](const FaceUse& use) { return !is_wall(m, use.face); });
+    };
+    std::set<std::size_t> on_ends; // sets of same edges
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+        if (is_on_end(e)) on_ends.insert(set_[e]);
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+        if (on_ends.contains(set_[e]) && !is_on_end(e)) beside_.insert(e);
 }
 
 void SameEdges::find_cusps()

@@ -58,7 +58,8 @@ public:
     /// - the edge is on a face shared with an unswept volume;
     /// - the edge ends at a cusp.
     [[nodiscard]] bool is_planned(std::size_t e) const { return planned_[e]; }
-    /// Whether an edge is on a wall shared with a volume that is not swept, or with an end of another member.
+    /// Whether an edge is on a wall shared with a volume that is not swept, or between walls where another
+    /// member has it on an end. The rows of the walls need a node at every vertex of such an edge.
     [[nodiscard]] bool is_beside(std::size_t e) const { return beside_.contains(e); }
     /// Whether an edge is the same as an edge on a periodic face.
     [[nodiscard]] bool is_tied(std::size_t e) const { return tied_.contains(set_[e]); }
@@ -78,6 +79,8 @@ private:
     /// Join the edges of periodic faces with their images. The first edge of each set defines the position
     /// and the nodes of all edges of the set.
     void join_periodic();
+    /// Find the edges between walls that other members have on their ends.
+    void find_beside_ends();
     /// Find cusps: corners of ends whose two edges leave in the same direction, such as an arc and its
     /// tangent line. A quad at a cusp has an angle near 0° unless its sides are long enough to reach the
     /// place where the edges have diverged.
