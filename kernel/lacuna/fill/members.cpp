@@ -128,7 +128,7 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
     const bool cuts = may_cut(volume, asked.options.fallback == sweep::Fallback::mixed);
     std::optional<Message> no_ends = volume.no_roles, why = no_ends;
     std::vector<closure::StepPiece> pieces;
-    const auto try_sweep = attempt([&] {
+    const auto tried = attempt([&] {
         if (no_ends) return;
         if (has_pieces(volume, context)) {
             pieces = cut_into_pieces(volume, context);
@@ -139,9 +139,9 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
             why = why_no_sweep(volume, context);
         }
     });
-    if (!try_sweep) {
-        if (!cuts) try_sweep.raise();
-        why = no_ends = try_sweep.why;
+    if (!tried) {
+        if (!cuts) tried.raise();
+        why = no_ends = tried.why;
     }
     if (why && meshes) {
         std::vector<closure::StepPiece> swept = swept_pieces(volume, *why, asked.options, context);

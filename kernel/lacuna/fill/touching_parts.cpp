@@ -167,10 +167,7 @@ public:
             members[b].volume = &given[b];
             members[b].region = "the body of " + name_of(model_, bodies_[b].faces.front());
         }
-        for (std::size_t b = 0; b < bodies_.size(); ++b)
-            for (std::size_t other = 0; other < bodies_.size(); ++other)
-                if (other != b && bodies_[b].box.intersects(bodies_[other].box))
-                    split_off_contacts(b, given[b], given[other].model);
+        for (std::size_t b = 0; b < bodies_.size(); ++b) split_off_contacts(b, given);
         sweep::ImprintedVolumes split = sweep::imprinted_parts(
             members, [&](const SharedFace& pair, bool same_side) { return is_contact(pair, same_side); },
             context_);
@@ -198,8 +195,9 @@ private:
     /// Split the facets of bent faces that lie in flat faces of another body off the rest of these faces. A
     /// product whose edges are all rounded is one smooth face of facets, and only the flat part of it touches
     /// what it stands on.
-    void split_off_contacts(std::size_t body, OpenVolume& volume, const Model& other)
+    void split_off_contacts(std::size_t body, std::vector<OpenVolume>& given)
     {
+        OpenVolume& volume = given[body];
         std::vector<std::pair<FaceId, Eigen::AlignedBox3d>> bent;
         const auto add = [&](FaceId id) {
             const Face& face = volume.model[id];
@@ -207,17 +205,19 @@ private:
                 bent.emplace_back(id, box_of(volume.model, id));
         };
         for (const FaceId face : all_faces(volume.model)) add(face);
-        for (const FaceId flat : all_faces(other)) {
-            const auto plane = bent.empty() ? std::nullopt : plane_of(other, flat);
-            if (!plane) continue;
-            Eigen::AlignedBox3d reach = box_of(other, flat);
-            reach.min().array() -= model_.tolerance;
-            reach.max().array() += model_.tolerance;
-            for (std::size_t b = 0; b < bent.size(); ++b) {
-                if (!bent[b].second.intersects(reach)) continue;
-                const std::size_t before = volume.role.size();
-                split_off_plane(body, volume, bent[b].first, *plane, reach);
-                for (std::size_t f = before; f < volume.role.size(); ++f) add(FaceId(f));
+        for (std::size_t other = 0; other < given.size() && !bent.empty(); ++other) {
+            if (other == body || !bodies_[body].box.intersects(bodies_[other].box)) continue;
+            for (const FaceId flat : all_faces(given[other].model)) {
+                Eigen::AlignedBox3d reach = box_of(given[other].model, flat);
+                reach.min().array() -= model_.tolerance;
+                reach.max().array() += model_.tolerance;
+                const auto plane = plane_of(given[other].model, flat);
+                for (std::size_t b = 0; plane && b < bent.size(); ++b) {
+                    if (!bent[b].second.intersects(reach)) continue;
+                    const std::size_t before = volume.role.size();
+                    split_off_plane(body, volume, bent[b].first, *plane, reach);
+                    for (std::size_t f = before; f < volume.role.size(); ++f) add(FaceId(f));
+                }
             }
         }
     }

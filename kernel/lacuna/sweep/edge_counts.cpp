@@ -78,7 +78,6 @@ EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
       context_(context),
       classes_(edges.size()),
       layers_(edges.members().size(), 1),
-      links_(edges.members().size()),
       levels_(edges.members(), edges.shared()),
       spacing_(default_sizes(edges))
 {
@@ -145,12 +144,16 @@ void EdgeCounts::join_by_sweep(std::size_t m)
 {
     std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
     std::map<EdgeId, bool> reversed; // on the source: the side corresponds to one of the other direction
-    std::vector<surface::LinkingSurface>& links = links_[m];
-    links = surface::linking_surfaces(*edges_.members()[m].volume);
+    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(*edges_.members()[m].volume);
     find_demands(m, links);
     plan_sides(m, links);
     levels_.read(m, links, context_);
     for (const surface::LinkingSurface& link : links) {
+        if (surface::has_bent_line(edges_.model(m), link)) {
+            for (std::size_t l = 0; l < link.lines.size(); ++l)
+                bent_lines_.try_emplace({m, link.lines[l].line.uses.front().edge}, bent_.size(), l);
+            bent_.push_back(link);
+        }
         for (const surface::RimSegment& segment : link.segments) {
             const EdgeId from = link.source.uses()[segment.use].edge;
             // A segment may cover several edges of the target.
@@ -201,12 +204,11 @@ void EdgeCounts::join_by_sweep(std::size_t m)
 
 std::vector<double> EdgeCounts::on_line(std::size_t m, EdgeId first, std::vector<double> heights) const
 {
-    for (const surface::LinkingSurface& link : links_[m])
-        for (std::size_t l = 0; l < link.lines.size(); ++l)
-            if (link.lines[l].line.uses.front().edge == first)
-                return surface::shares_on_line(*edges_.members()[m].volume, link, l, std::move(heights),
-                                               context_);
-    return heights;
+    const auto found = bent_lines_.find({m, first});
+    if (found == bent_lines_.end()) return heights;
+    const auto [link, line] = found->second;
+    return surface::shares_on_line(*edges_.members()[m].volume, bent_[link], line, std::move(heights),
+                                   context_);
 }
 
 void EdgeCounts::find_demands(std::size_t m, std::span<const surface::LinkingSurface> links)
@@ -554,9 +556,12 @@ void EdgeCounts::find_dense()
                         dense[i] = std::max(dense[i], edges_[e].length / sizes.shape.at(points[i]));
                 }
     }
-    for (std::size_t e = 0; e < edges_.size(); ++e) // the rest of a bent edge still has its sides
-        if (const auto dense = dense_.find(class_of(e)); dense != dense_.end())
-            for (double& sides : dense->second) sides = std::max(sides, wanted(edges_[e]));
+    for (std::size_t e = 0; e < edges_.size(); ++e) { // the rest of a bent edge still has its sides
+        const auto dense = dense_.find(class_of(e));
+        if (dense == dense_.end()) continue;
+        const double least = wanted(edges_[e]);
+        for (double& sides : dense->second) sides = std::max(sides, least);
+    }
 }
 
 std::vector<double> EdgeCounts::spread(std::size_t e, int count) const

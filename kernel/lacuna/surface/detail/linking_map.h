@@ -177,9 +177,6 @@ std::vector<topology::EdgeUse> edges_between(const topology::Model& model, const
 /// Whether the walls of a linking surface consist of nearly parallel straight lines.
 bool runs_straight(const topology::Model& model, const LinkingSurface& link);
 
-/// Whether a side line of a linking surface bends.
-bool has_bent_line(const topology::Model& model, const LinkingSurface& link);
-
 /// The coordinate s in [0, 1] of a position on the target rim, as the linking surface's segments prescribe
 /// it.
 /// @param target_at  running length on the target chain.

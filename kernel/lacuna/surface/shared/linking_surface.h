@@ -60,6 +60,9 @@ struct LinkingSurface {
     mutable std::shared_ptr<const LinkingMap> map{};
 };
 
+/// Whether a side line of a linking surface bends.
+bool has_bent_line(const topology::Model& model, const LinkingSurface& link);
+
 /// The part of the source edge that a segment covers, as fractions of the edge's length in its direction.
 std::pair<double, double> edge_part(const LinkingSurface& link, const RimSegment& segment);
 

@@ -62,7 +62,8 @@ public:
     /// For each member: its side lines that consist of several edges, at least one of them beside another
     /// volume (`SameEdges::is_beside()`).
     [[nodiscard]] const std::map<std::size_t, std::vector<Line>>& stacks() const { return stacks_; }
-    /// `surface::shares_on_line()` of the side line of a member that begins with an edge.
+    /// `surface::shares_on_line()` of the side line of a member that begins with an edge. The search for the
+    /// line is O(log lines).
     [[nodiscard]] std::vector<double> on_line(std::size_t m, EdgeId first, std::vector<double> heights) const;
     /// Number of layers of a member with side lines that consist of several edges: at least the largest
     /// number of edges of one line.
@@ -179,7 +180,9 @@ private:
     /// Sets of same edges that, in some member, form only a part of a side line.
     std::set<std::size_t> stacked_;
     std::vector<int> per_turn_, layers_; ///< numbers that each member needs to keep its volume
-    std::vector<std::vector<surface::LinkingSurface>> links_; ///< of each member
+    std::vector<surface::LinkingSurface> bent_; ///< those with side lines that bend
+    /// For each member and first edge of a side line in `bent_`: the linking surface, and the line in it.
+    std::map<std::pair<std::size_t, EdgeId>, std::pair<std::size_t, std::size_t>> bent_lines_;
     AssemblyLevels levels_;
     std::vector<std::vector<double>> heights_;
     std::map<std::size_t, Followed> followed_;
