@@ -9,13 +9,16 @@
 #include <lacuna/core/shared/attempt.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/surface/detail/alike_ends.h>
 #include <lacuna/surface/detail/flat_ends.h>
 #include <lacuna/surface/detail/imprint_rims.h>
 #include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/plane_regions.h>
+#include <lacuna/surface/detail/quad_path.h>
 #include <lacuna/surface/detail/surface_curve.h>
+#include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -23,7 +26,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <ranges>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace lacuna::surface {
 
@@ -40,9 +46,12 @@ struct Border {
 class TargetImprinter {
 public:
     TargetImprinter(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-                    std::span<const KnownLine> known)
+                    std::span<const KnownLine> known, ImprintedLines lines)
         : size_(size), given_links_(links), known_(known), inner_(inner_edges(volume, Role::target))
     {
+        if (lines == ImprintedLines::open)
+            for (const EdgeUse& use : closed_lines(volume, inner_) | std::views::join)
+                std::erase(inner_, use.edge);
         result_.volume = std::make_unique<OpenVolume>(volume);
         for (std::size_t f = 0; f < volume.model.faces.size(); ++f) result_.source_of.emplace_back(f);
     }
@@ -58,9 +67,12 @@ public:
             refuse_imprint(model(), inner_.front(),
                            "source and target cannot be mapped onto each other one to one");
         }
-        flat_ = lay_flat(base_, *map_, pairs_, inner_, reach_);
+        find_paths();
+        flat_ = lay_flat(base_, *map_, pairs_, left_, reach_);
+        cut_at_paths();
         cut_source();
         builder_.emplace(model());
+        add_paths();
         add_target();
         check_not_kept();
         set_borders();
@@ -114,7 +126,7 @@ private:
     /// Refuse to split a face whose given quads are kept.
     void check_not_kept()
     {
-        for (const FaceId face : split_) {
+        for (const FaceId face : not_followed_) {
             if (base_.model[face].given_quads.empty()) continue;
             // Quads on a cut are those of the piece beside it.
             const bool is_cut = base_.model[face].origin == Origin::made_void;
@@ -141,8 +153,6 @@ private:
     /// target.
     void cut_source()
     {
-        for (std::size_t p = 0; p < base_.model.points.size(); ++p)
-            set_place(static_cast<Index>(p), map_->source(static_cast<Index>(p)));
         const std::vector<FlatPiece> low = pieces_of(flat_.source, flat_.place);
         std::vector<EdgeId> part(low.size()); // edge of each piece
         for (std::size_t k = low.size(); k-- > 0;) {
@@ -176,6 +186,93 @@ private:
         }
     }
 
+    /// Find sides of kept quads that represent closed lines of the target.
+    void find_paths()
+    {
+        for (std::size_t p = 0; p < base_.model.points.size(); ++p)
+            set_place(static_cast<Index>(p), map_->source(static_cast<Index>(p)));
+        left_ = inner_;
+        std::vector<Quad> quads;
+        for (const FaceId face : base_.faces(Role::source)) {
+            const Face& own = base_.model[face];
+            if (own.keeps_nodes && has_quads_all_over(own))
+                quads.insert(quads.end(), own.given_quads.begin(), own.given_quads.end());
+        }
+        if (quads.empty()) return;
+        std::vector<FlatEdge> own;
+        for (const EdgeId edge : inner_edges(base_, Role::source))
+            own.push_back(flat_edge(base_.model, *map_, edge, false));
+        const auto is_on_source = [&](const EdgeUse& use) {
+            return std::ranges::all_of(flat_edge(base_.model, *map_, use.edge, true).line,
+                                       [&](const Vec2& p) {
+                                           return std::ranges::any_of(own, [&](const FlatEdge& edge) {
+                                               return closest_on(edge.line, edge.at, p).distance <= reach_(p);
+                                           });
+                                       });
+        };
+        std::unordered_set<Index> taken;
+        for (const std::vector<EdgeUse>& line : closed_lines(base_, inner_)) {
+            if (std::ranges::all_of(line, is_on_source)) continue; // both ends have the line
+            std::vector<PathSide> path = path_along(base_.model, *map_, quads, place_, line, taken);
+            if (path.empty()) continue;
+            for (const EdgeUse& use : line) std::erase(left_, use.edge);
+            for (const PathSide& side : path) taken.insert(side.from);
+            path_.insert(path_.end(), path.begin(), path.end());
+        }
+        result_.follows_quads = !path_.empty();
+    }
+
+    /// Cut the source's inner edges where paths cross them or run along them.
+    void cut_at_paths()
+    {
+        std::unordered_set<Index> on_path;
+        for (const PathSide& side : path_) on_path.insert(side.from);
+        for (FlatEdge& edge : flat_.source) {
+            const std::vector<Index>& points = base_.model[edge.edge].points;
+            for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+                if (!on_path.contains(points[i])) continue;
+                edge.cuts.push_back({edge.at[i], flat_.place.size()});
+                flat_.place.push_back(place_[index(points[i])]);
+                flat_.vertex.emplace_back();
+            }
+        }
+    }
+
+    /// Make the sides of the paths edges of the source, and give them their images.
+    void add_paths()
+    {
+        std::unordered_map<std::uint64_t, std::size_t> border_on; // borders so far that are one side
+        for (std::size_t k = 0; k < borders_.size(); ++k)
+            if (const std::vector<Index>& points = builder()[borders_[k].source].points; points.size() == 2)
+                border_on[edge_key(points[0], points[1])] = k;
+        std::unordered_map<Index, VertexId> vertex_at;
+        for (std::size_t v = 0; v < builder().vertices.size(); ++v)
+            vertex_at[builder().vertices[v].point] = VertexId(v);
+        for (const PathSide& side : path_)
+            if (!vertex_at.contains(side.from)) vertex_at[side.from] = builder().add_void_vertex(side.from);
+        std::unordered_map<std::uint64_t, FaceId> face_on; // by its sides
+        for (const FaceId face : base_.faces(Role::source))
+            for (const Quad& quad : base_.model[face].given_quads)
+                for (std::size_t k = 0; k < 4; ++k) face_on[directed_key(quad[k], quad[(k + 1) % 4])] = face;
+        for (const PathSide& side : path_) {
+            if (const auto known = border_on.find(edge_key(side.from, side.to)); known != border_on.end()) {
+                Border& border = borders_[known->second];
+                border.image = side.image;
+                if (builder()[border.source].points.front() != side.from)
+                    std::swap(border.image->from, border.image->to);
+                continue;
+            }
+            const EdgeId edge = builder().add_void_edge(vertex_at[side.from], vertex_at[side.to],
+                                                        {side.from, side.to});
+            builder()[edge].tag = base_.model[side.image.target].tag;
+            builder()[edge].keeps_nodes = true;
+            borders_.push_back({edge, side.image});
+            new_on_[edge] = face_on.at(directed_key(side.from, side.to));
+            split_.insert(new_on_[edge]);
+            on_quads_.insert(edge_key(side.from, side.to));
+        }
+    }
+
     /// Create edges on the source for those of the target that the source lacks.
     void add_target()
     {
@@ -185,6 +282,7 @@ private:
                                                       : Vec2((piece.line.front() + piece.line.back()) / 2);
             const FaceId face = map_->on_source(middle).face;
             split_.insert(face);
+            not_followed_.insert(face);
             const Edge edge = new_edge(piece, target, face);
             borders_.push_back(
                 {EdgeId(builder().edges.size()), EdgeImage{target, piece.from_at, piece.to_at}});
@@ -406,7 +504,11 @@ private:
                 result_.target_of.emplace_back();
             }
             result_.target_of[face.index()] = target[r];
-            if (split_.contains(source[r])) make_facets(regions[r], source[r], face);
+            if (!split_.contains(source[r])) continue;
+            if (base_.model[source[r]].given_quads.empty())
+                make_facets(regions[r], source[r], face);
+            else
+                take_quads(regions[r], source[r], face);
         }
     }
 
@@ -421,24 +523,47 @@ private:
         known = found;
     }
 
+    std::vector<Loop> loops_of(const PlaneRegion& region) const
+    {
+        std::vector<Loop> loops;
+        for (const auto& walk : region.loops) {
+            Loop& loop = loops.emplace_back();
+            for (const PlaneUse& use : walk) loop.uses.push_back({borders_[use.chain].source, use.reversed});
+        }
+        return loops;
+    }
+
+    /// Give the quads of the source face `of` inside a region to the face `face`.
+    void take_quads(const PlaneRegion& region, FaceId of, FaceId face)
+    {
+        std::vector<Loop> loops = loops_of(region);
+        const std::vector<Index> rim = loop_points(builder(), loops.front().uses);
+        const std::uint64_t inside = directed_key(rim[0], rim[1]);
+        for (Face& part : parts_along(base_.model[of], on_quads_, base_.model.points.size())) {
+            const bool here = std::ranges::any_of(part.triangles, [&](const Triangle& t) {
+                return inside == directed_key(t[0], t[1]) || inside == directed_key(t[1], t[2]) ||
+                       inside == directed_key(t[2], t[0]);
+            });
+            if (!here) continue;
+            part.loops = std::move(loops);
+            builder()[face] = std::move(part);
+            return;
+        }
+    }
+
     /// Triangulate a region of the source face `of`, and give the triangles to the face `face`.
     void make_facets(const PlaneRegion& region, FaceId of, FaceId face)
     {
         std::vector<std::vector<Index>> loops;
         std::vector<Index> points;
         std::vector<Vec2> places;
-        std::vector<Loop> uses;
-        for (const auto& walk : region.loops) {
+        std::vector<Loop> uses = loops_of(region);
+        for (const Loop& own : uses) {
             std::vector<Index>& loop = loops.emplace_back();
-            Loop& own = uses.emplace_back();
-            for (const PlaneUse& use : walk) {
-                own.uses.push_back({borders_[use.chain].source, use.reversed});
-                const std::vector<Index> along = use_points(builder(), own.uses.back());
-                for (std::size_t i = 0; i + 1 < along.size(); ++i) {
-                    loop.push_back(static_cast<Index>(points.size()));
-                    points.push_back(along[i]);
-                    places.push_back(place_[index(along[i])]);
-                }
+            for (const Index p : loop_points(builder(), own.uses)) {
+                loop.push_back(static_cast<Index>(points.size()));
+                points.push_back(p);
+                places.push_back(place_[index(p)]);
             }
         }
         const bool plane = base_.model[of].kind == "plane";
@@ -487,6 +612,8 @@ private:
     std::span<const LinkingSurface> given_links_;
     std::span<const KnownLine> known_;
     std::vector<EdgeId> inner_;
+    std::vector<EdgeId> left_;   ///< those that are not represented by `path_`
+    std::vector<PathSide> path_; ///< sides of kept quads that represent closed lines of the target
     std::vector<RimPair> pairs_;
     Imprint result_;
     std::optional<ModelBuilder> builder_; ///< builder of `result_.volume->model` while rims are split
@@ -499,7 +626,9 @@ private:
     std::vector<PlaneChain> chains_;  ///< chain of each border
     std::map<EdgeId, FaceId> new_on_; ///< for each new edge, the source face that it lies on
     std::map<FaceId, Vec2> seam_jump_;
-    std::set<FaceId> split_; ///< source faces with new edges
+    std::set<FaceId> split_;        ///< source faces with new edges
+    std::set<FaceId> not_followed_; ///< those with new edges that do not run along sides of kept quads
+    std::unordered_set<std::uint64_t> on_quads_; ///< keys of the sides of kept quads that became edges
     std::map<EdgeUse, FaceId> source_left_, target_left_;
     std::map<EdgeId, FaceId> rim_target_; ///< target face over each edge of the source's rim
 };
@@ -536,9 +665,9 @@ std::map<EdgeId, double> image_lengths(const Imprint& imprint)
 }
 
 Imprint imprint_target(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
-                       std::span<const KnownLine> known)
+                       std::span<const KnownLine> known, ImprintedLines lines)
 {
-    return TargetImprinter(volume, links, size, known).run();
+    return TargetImprinter(volume, links, size, known, lines).run();
 }
 
 } // namespace lacuna::surface

@@ -130,6 +130,13 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
                    is_wall(members[other], is_a ? face->face_b : face->face_a) == other_wall;
         });
     };
+    // Members with an end that is a wall of a neighbour, and stacks of such a member. It comes first in its
+    // stack: the wall's rows determine the quads of the stack.
+    std::vector<char> on_wall(count, 0), led(count, 0);
+    for (const SharedFace& face : shared) {
+        const bool a = is_wall(members[face.a], face.face_a), b = is_wall(members[face.b], face.face_b);
+        if (a != b) on_wall[a ? face.b : face.a] = led[joined.find(a ? face.b : face.a)] = 1;
+    }
     // For each member, the neighbours that should be placed before it: the wall shared with such a neighbour
     // lies in the middle of the neighbour's walls, away from the rims of the neighbour's ends.
     std::vector<std::set<std::size_t>> below(count);
@@ -149,9 +156,11 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
             return {2, static_cast<std::size_t>(at - first.begin()), m};
         if (came_with_mesh(members[m])) return {3, m, m};
         if (!members[m].options.boundary_layers.empty()) return {4, m, m};
-        if (!all_placed(below[m])) return {9, m, m};
+        const bool first_of_stack = !stack[joined.find(m)].empty();
+        if (!all_placed(below[m]) || (first_of_stack && led[joined.find(m)] != 0 && on_wall[m] == 0))
+            return {9, m, m};
         if (has(m, false, true, false)) return {8, m, m};
-        if (early[m] && !stack[joined.find(m)].empty() && !has(m, false, true, true)) return {5, m, m};
+        if (early[m] && first_of_stack && !has(m, false, true, true)) return {5, m, m};
         return {has(m, false, false, true) ? 6 : 7, m, m};
     };
     std::set<Step> to_come; // of the members that are not placed

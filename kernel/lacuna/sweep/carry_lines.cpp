@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -307,19 +308,24 @@ private:
     {
         OpenVolume volume = end == Role::source ? volumes_[m] : turned_round(volumes_[m]);
         if (surface::inner_edges(volume, Role::target).empty()) return false;
-        const auto is_at_end = [&](std::size_t member, FaceId face) {
-            return member == m && volume.role[face.index()] == Role::source;
-        };
-        if (std::ranges::none_of(shared_, [&](const SharedFace& face) {
-                return is_at_end(face.a, face.face_a) || is_at_end(face.b, face.face_b);
-            }))
-            return false;
+        bool is_shared = false;
+        surface::ImprintedLines lines = surface::ImprintedLines::all;
+        for (const SharedFace& face : shared_)
+            for (const auto& [own, at, other, there] :
+                 {std::tuple(face.a, face.face_a, face.b, face.face_b),
+                  std::tuple(face.b, face.face_b, face.a, face.face_a)}) {
+                if (own != m || volume.role[at.index()] != Role::source) continue;
+                is_shared = true;
+                // A closed line does not divide the rows of a wall: the sweep follows sides of its quads.
+                if (volumes_[other].role[there.index()] == Role::wall) lines = surface::ImprintedLines::open;
+            }
+        if (!is_shared) return false;
         surface::SizeField size = members_[m].options.size;
         if (!size) size = surface::even_size(surface::default_size(volume).length);
         const std::vector<surface::KnownLine> known = known_lines(m, end);
         surface::Imprint imprint = surface::imprint_target(
             volume, surface::linking_surfaces(volume, surface::Turning::each, known_pairs(m, end, volume)),
-            size, known);
+            size, known, lines);
         if (imprint.volume->model.faces.size() == volume.model.faces.size()) return false;
         keep_images(m, end, imprint);
         split_.insert(m);

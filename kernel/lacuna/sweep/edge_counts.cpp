@@ -90,6 +90,18 @@ EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
         check_cancelled(context);
         if (edges.members()[m].fixed == nullptr) join_by_sweep(m);
     }
+    ahead_ = lines_ahead(edges_, [this](std::size_t e) { return wanted(edges_[e]); });
+    std::map<std::size_t, double> finest; // size that lines ahead need on each set of same edges
+    for (const LineAhead& line : ahead_) {
+        double& size = finest.try_emplace(edges_.set_of(line.edge), line.size).first->second;
+        size = std::min(size, line.size);
+    }
+    for (const auto& [m, sides] : sides_)
+        for (const EdgeUse& side : sides)
+            if (const auto need = finest.find(edges_.set_of(edges_.number(m, side.edge)));
+                need != finest.end())
+                layers_[m] = std::max(
+                    layers_[m], static_cast<int>(edges_[edges_.number(m, side.edge)].length / need->second));
     heights_ = levels_.heights([this](std::size_t m, double height) {
         const std::vector<Vec3>& points = edges_.model(m).points;
         const Vec3 middle = std::accumulate(points.begin(), points.end(), Vec3(Vec3::Zero())) /
@@ -555,6 +567,17 @@ void EdgeCounts::find_dense()
                     for (std::size_t i = 0; i < kFineChords; ++i)
                         dense[i] = std::max(dense[i], edges_[e].length / sizes.shape.at(points[i]));
                 }
+    }
+    for (const LineAhead& line : ahead_) {
+        if (layered.contains(class_of(line.edge)) || edges_.kept(line.edge) != SameEdges::Kept::no) continue;
+        std::vector<double>& dense = dense_[class_of(line.edge)];
+        dense.resize(kFineChords, 0);
+        const double length = edges_[line.edge].length;
+        for (std::size_t i = 0; i < kFineChords; ++i) {
+            const double share = reversed_[line.edge] ? 1 - at[i] : at[i];
+            const double off = std::max({line.from - share, share - line.to, 0.0}) * length;
+            dense[i] = std::max(dense[i], length / (line.size + kGrading * off));
+        }
     }
     for (std::size_t e = 0; e < edges_.size(); ++e) { // the rest of a bent edge still has its sides
         const auto dense = dense_.find(class_of(e));

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/background.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/quality/shared/layered.h>
@@ -415,6 +416,13 @@ private:
         const quality::Quality& quality = proof.quality;
         const bool nearly_flat = quality.min_scaled_jacobian < kFoldedQuad;
         if (nearly_flat && !good_ && !motion_ && !keeps_target_) check_shrinking(result_.mesh);
+        if (nearly_flat && imprint_ && imprint_->follows_quads)
+            throw NotSweepable(
+                Message("surface.not_imprinted",
+                        "lines inside one end follow quads of the other that do not fit them: the "
+                        "least scaled Jacobian is {:.2g}",
+                        found(quality.min_scaled_jacobian))
+                    .remedy("give another 'size', or cut the volume otherwise"));
         result_.min_scaled_jacobian = quality.min_scaled_jacobian;
         const std::string wedges = quality.wedges > 0 ? formatted(" hexahedra and {} wedges", quality.wedges)
                                                       : "";

@@ -44,6 +44,8 @@ struct Imprint {
     std::vector<FaceId> target_of; ///< for each source face, the target face to which it is swept
     /// For each source edge that is swept to an inner edge of the target: its image.
     std::map<EdgeId, EdgeImage> images;
+    /// Whether inner edges of the target are represented by sides of kept quads.
+    bool follows_quads = false;
 };
 
 /// Lengths of the images of source edges, as `seed_source()` needs them [model length].
@@ -52,19 +54,25 @@ std::map<EdgeId, double> image_lengths(const Imprint& imprint);
 /// Edges between two faces of one role. A seam, with one face on both sides, is not included.
 std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Role role);
 
+/// Which inner edges of the target are imprinted: all, or only lines that touch its rim or each other.
+enum class ImprintedLines { all, open };
+
 /// Imprint the inner edges of the target on the source, so that both ends are split in the same way.
 ///
 /// 1. Source and target are mapped onto one plane: the source by `geometry::flatten()`, the target by a
 ///    harmonic map, in which the linking surfaces determine the positions of the target's rim.
 /// 2. The edges of the target are intersected with those of the source. Edges and vertices closer to each
 ///    other than a fraction of the quad size are merged.
-/// 3. The source faces are split along the edges that exist only on the target, and retriangulated.
+/// 3. The source faces are split along the edges that exist only on the target, and retriangulated. Closed
+///    lines over faces with kept quads are represented by sides of these quads instead: the nodes there stay,
+///    and their images on the target lie on the line.
 /// @param known  corresponding lines that an earlier imprint created on both ends. They are made to coincide
 ///         in the plane.
 /// @throw NotSweepable "surface.not_imprinted"  the ends cannot be mapped onto each other one to one, an edge
-///         is so close to another that quads do not fit between them, or a source face keeps its own quads;
-///         names the target's edge.
+///         is so close to another that quads do not fit between them, or no sides of the quads that a source
+///         face keeps fit the line; names the target's edge.
 Imprint imprint_target(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
-                       const SizeField& size, std::span<const KnownLine> known = {});
+                       const SizeField& size, std::span<const KnownLine> known = {},
+                       ImprintedLines lines = ImprintedLines::all);
 
 } // namespace lacuna::surface

@@ -5,6 +5,7 @@
 #include <lacuna/surface/shared/intervals.h>
 #include <lacuna/sweep/detail/assembly_levels.h>
 #include <lacuna/sweep/detail/edge_rows.h>
+#include <lacuna/sweep/detail/lines_ahead.h>
 #include <lacuna/sweep/detail/same_edges.h>
 
 #include <array>
@@ -116,8 +117,9 @@ private:
     };
     /// Find the direction of each edge relative to the other edges of its class.
     void find_directions();
-    /// Find the densities of sides along classes with an edge on the rim of a source beside a narrow place.
-    /// The classes of side lines are left out: layers do not follow narrow places.
+    /// Find the densities of sides along classes with an edge on the rim of a source beside a narrow place,
+    /// or in front of a line (`lines_ahead()`). The classes of side lines are left out: layers do not follow
+    /// narrow places.
     void find_dense();
     [[nodiscard]] std::size_t class_of(std::size_t e) const { return class_[e]; }
     [[nodiscard]] double size(std::size_t m, const Vec3& p) const;
@@ -179,7 +181,7 @@ private:
     std::map<std::size_t, std::vector<Line>> stacks_;
     /// Sets of same edges that, in some member, form only a part of a side line.
     std::set<std::size_t> stacked_;
-    std::vector<int> per_turn_, layers_; ///< numbers that each member needs to keep its volume
+    std::vector<int> per_turn_, layers_;        ///< numbers that each member needs to keep its volume
     std::vector<surface::LinkingSurface> bent_; ///< those with side lines that bend
     /// For each member and first edge of a side line in `bent_`: the linking surface, and the line in it.
     std::map<std::pair<std::size_t, EdgeId>, std::pair<std::size_t, std::size_t>> bent_lines_;
@@ -190,6 +192,7 @@ private:
     std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member that has any
     std::map<std::size_t, SidesOfClass> intervals_; ///< for each class: sides requested by 'intervals'
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
+    std::vector<LineAhead> ahead_; ///< lines in front of grids
     std::vector<JoinedEdges> joined_;
     std::vector<Chain> chains_;
     std::vector<bool> reversed_; ///< for each edge, whether it runs against its class
