@@ -50,7 +50,7 @@ public:
         : size_(size), given_links_(links), known_(known), inner_(inner_edges(volume, Role::target))
     {
         if (lines == ImprintedLines::open)
-            for (const EdgeUse& use : closed_lines(volume, inner_) | std::views::join)
+            for (const EdgeUse& use : closed_lines(volume, Role::target, inner_) | std::views::join)
                 std::erase(inner_, use.edge);
         result_.volume = std::make_unique<OpenVolume>(volume);
         for (std::size_t f = 0; f < volume.model.faces.size(); ++f) result_.source_of.emplace_back(f);
@@ -58,7 +58,7 @@ public:
 
     Imprint run()
     {
-        if (match_alike()) return std::move(result_);
+        if (inner_.empty() || match_alike()) return std::move(result_);
         pairs_ = pair_rims(model(), given_links_, inner_, size_);
         result_.links = link_anew(*result_.volume, given_links_, pairs_);
         base_ = *result_.volume;
@@ -211,7 +211,7 @@ private:
                                        });
         };
         std::unordered_set<Index> taken;
-        for (const std::vector<EdgeUse>& line : closed_lines(base_, inner_)) {
+        for (const std::vector<EdgeUse>& line : closed_lines(base_, Role::target, inner_)) {
             if (std::ranges::all_of(line, is_on_source)) continue; // both ends have the line
             std::vector<PathSide> path = path_along(base_.model, *map_, quads, place_, line, taken);
             if (path.empty()) continue;
@@ -539,7 +539,9 @@ private:
         std::vector<Loop> loops = loops_of(region);
         const std::vector<Index> rim = loop_points(builder(), loops.front().uses);
         const std::uint64_t inside = directed_key(rim[0], rim[1]);
-        for (Face& part : parts_along(base_.model[of], on_quads_, base_.model.points.size())) {
+        std::vector<Face>& parts = parts_[of];
+        if (parts.empty()) parts = parts_along(base_.model[of], on_quads_, base_.model.points.size());
+        for (Face& part : parts) {
             const bool here = std::ranges::any_of(part.triangles, [&](const Triangle& t) {
                 return inside == directed_key(t[0], t[1]) || inside == directed_key(t[1], t[2]) ||
                        inside == directed_key(t[2], t[0]);
@@ -629,6 +631,7 @@ private:
     std::set<FaceId> split_;        ///< source faces with new edges
     std::set<FaceId> not_followed_; ///< those with new edges that do not run along sides of kept quads
     std::unordered_set<std::uint64_t> on_quads_; ///< keys of the sides of kept quads that became edges
+    std::map<FaceId, std::vector<Face>> parts_;  ///< parts of faces with kept quads between these sides
     std::map<EdgeUse, FaceId> source_left_, target_left_;
     std::map<EdgeId, FaceId> rim_target_; ///< target face over each edge of the source's rim
 };
@@ -654,6 +657,38 @@ std::vector<EdgeId> inner_edges(const OpenVolume& volume, Role role)
         if (inner) result.emplace_back(e);
     }
     return result;
+}
+
+std::vector<std::vector<EdgeUse>> closed_lines(const OpenVolume& volume, Role end,
+                                               std::span<const EdgeId> inner)
+{
+    const Model& model = volume.model;
+    std::map<VertexId, std::vector<EdgeUse>> from; // uses that leave each vertex
+    for (const EdgeId edge : inner) {
+        from[model[edge].from].push_back({edge, false});
+        from[model[edge].to].push_back({edge, true});
+    }
+    std::set<VertexId> ends; // vertices at which no line goes on
+    for (const Rim& rim : rims(model, volume.faces(end)))
+        for (const EdgeUse& use : rim.uses) ends.insert(use_from(model, use));
+    for (const auto& [vertex, uses] : from)
+        if (uses.size() != 2) ends.insert(vertex);
+    std::set<EdgeId> done;
+    std::vector<std::vector<EdgeUse>> lines;
+    for (const EdgeId first : inner) {
+        if (done.contains(first)) continue;
+        std::vector<EdgeUse> line{{first, false}};
+        const VertexId start = model[first].from;
+        bool open = ends.contains(start);
+        for (VertexId at = model[first].to; at != start && !open; at = use_to(model, line.back())) {
+            open = ends.contains(at);
+            const std::vector<EdgeUse>& on = from.at(at);
+            if (!open) line.push_back(on[on[0].edge == line.back().edge ? 1 : 0]);
+        }
+        for (const EdgeUse& use : line) done.insert(use.edge);
+        if (!open) lines.push_back(std::move(line));
+    }
+    return lines;
 }
 
 std::map<EdgeId, double> image_lengths(const Imprint& imprint)

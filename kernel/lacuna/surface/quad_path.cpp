@@ -6,8 +6,7 @@
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/signed_area.h>
-#include <lacuna/topology/shared/face_parts.h>
-#include <lacuna/topology/shared/use_places.h>
+#include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +14,6 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
-#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -142,19 +140,6 @@ private:
     std::unordered_map<Index, Place> place_;
 };
 
-/// Nodes on the border of a mesh, each once.
-std::vector<Index> border_nodes(std::span<const Quad> quads)
-{
-    std::set<std::uint64_t> sides;
-    for (const Quad& q : quads)
-        for (std::size_t k = 0; k < 4; ++k) sides.insert(directed_key(q[k], q[(k + 1) % 4]));
-    std::set<Index> nodes;
-    for (const Quad& q : quads)
-        for (std::size_t k = 0; k < 4; ++k)
-            if (!sides.contains(directed_key(q[(k + 1) % 4], q[k]))) nodes.insert(q[k]);
-    return {nodes.begin(), nodes.end()};
-}
-
 /// Whether a point lies inside a closed line.
 bool is_inside(const Vec2& p, std::span<const Vec2> line)
 {
@@ -180,7 +165,7 @@ std::size_t nearest_quad(std::span<const Quad> quads, std::span<const Vec2> plac
 
 } // namespace
 
-std::vector<Index> path_around(std::span<const Quad> quads, std::span<const Vec2> place,
+std::vector<Index> path_around(const std::vector<Quad>& quads, std::span<const Vec2> place,
                                std::span<const Vec2> line, const std::unordered_set<Index>& taken)
 {
     const std::size_t count = line.size();
@@ -188,12 +173,13 @@ std::vector<Index> path_around(std::span<const Quad> quads, std::span<const Vec2
     Vec2 middle = Vec2::Zero();
     for (const Vec2& p : line) middle += p / static_cast<double>(count);
     const int half = static_cast<int>(count / 2);
-    const GridAround grid(quads, nearest_quad(quads, place, middle), 2 * half, taken);
+    const GridAround grid(quads, nearest_quad(quads, place, middle), half + 1, taken);
     std::vector<Index> best;
     double least = kInfinity;
     const bool clockwise = geometry::signed_area(line) < 0;
     std::vector<Vec2> rims;
-    for (const Index node : border_nodes(quads)) rims.push_back(place[static_cast<std::size_t>(node)]);
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(quads))
+        rims.push_back(place[static_cast<std::size_t>(side.from)]);
     const auto compare = [&](Place low, Place high) {
         const std::optional<Vec2> at = grid.middle(place, low, high);
         if (!at || static_cast<double>(count) * (*at - middle).squaredNorm() >= least) return;
@@ -218,8 +204,8 @@ std::vector<Index> path_around(std::span<const Quad> quads, std::span<const Vec2
     };
     for (int columns = 1; columns < half; ++columns) {
         const int rows = half - columns;
-        for (int a = -2 * half; a <= half; ++a)
-            for (int b = -2 * half; b <= half; ++b) compare({a, b}, {a + columns, b + rows});
+        for (int a = -columns; a <= 0; ++a) // the quad nearest to the line's middle lies in the block
+            for (int b = -rows; b <= 0; ++b) compare({a, b}, {a + columns, b + rows});
     }
     return best;
 }
@@ -250,7 +236,7 @@ std::vector<double> node_shares(const Model& model, const FlatEdge& edge, double
 
 } // namespace
 
-std::vector<PathSide> path_along(const Model& model, const EndsMap& map, std::span<const Quad> quads,
+std::vector<PathSide> path_along(const Model& model, const EndsMap& map, const std::vector<Quad>& quads,
                                  std::span<const Vec2> place, std::span<const EdgeUse> line,
                                  const std::unordered_set<Index>& taken)
 {
@@ -278,37 +264,6 @@ std::vector<PathSide> path_along(const Model& model, const EndsMap& map, std::sp
         sides[k].to = path[(k + 1) % path.size()];
     }
     return sides;
-}
-
-std::vector<std::vector<EdgeUse>> closed_lines(const OpenVolume& volume, std::span<const EdgeId> inner)
-{
-    const Model& model = volume.model;
-    std::map<VertexId, std::vector<EdgeUse>> from; // uses that leave each vertex
-    for (const EdgeId edge : inner) {
-        from[model[edge].from].push_back({edge, false});
-        from[model[edge].to].push_back({edge, true});
-    }
-    std::set<VertexId> ends; // vertices at which no line goes on
-    for (const Rim& rim : rims(model, volume.faces(Role::target)))
-        for (const EdgeUse& use : rim.uses) ends.insert(use_from(model, use));
-    for (const auto& [vertex, uses] : from)
-        if (uses.size() != 2) ends.insert(vertex);
-    std::set<EdgeId> done;
-    std::vector<std::vector<EdgeUse>> lines;
-    for (const EdgeId first : inner) {
-        if (done.contains(first)) continue;
-        std::vector<EdgeUse> line{{first, false}};
-        const VertexId start = model[first].from;
-        bool open = ends.contains(start);
-        for (VertexId at = model[first].to; at != start && !open; at = use_to(model, line.back())) {
-            open = ends.contains(at);
-            const std::vector<EdgeUse>& on = from.at(at);
-            if (!open) line.push_back(on[on[0].edge == line.back().edge ? 1 : 0]);
-        }
-        for (const EdgeUse& use : line) done.insert(use.edge);
-        if (!open) lines.push_back(std::move(line));
-    }
-    return lines;
 }
 
 } // namespace lacuna::surface

@@ -130,8 +130,8 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
                    is_wall(members[other], is_a ? face->face_b : face->face_a) == other_wall;
         });
     };
-    // Members with an end that is a wall of a neighbour, and stacks of such a member. It comes first in its
-    // stack: the wall's rows determine the quads of the stack.
+    // Whether an end of a member is a wall of a neighbour, and whether a stack has such a member (by root).
+    // This member comes first in its stack, because the wall's rows determine the quads of all of them.
     std::vector<char> on_wall(count, 0), led(count, 0);
     for (const SharedFace& face : shared) {
         const bool a = is_wall(members[face.a], face.face_a), b = is_wall(members[face.b], face.face_b);

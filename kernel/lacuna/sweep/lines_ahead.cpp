@@ -6,31 +6,12 @@
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
-#include <set>
+#include <ranges>
 #include <utility>
 
 namespace lacuna::sweep {
 
 using namespace topology;
-
-namespace {
-
-/// Edges between faces of one end that do not reach the rim of the end.
-std::vector<EdgeId> closed_lines(const OpenVolume& volume, Role end)
-{
-    std::vector<EdgeId> lines = surface::inner_edges(volume, end);
-    if (lines.empty()) return lines;
-    std::set<VertexId> on_rim;
-    for (const Rim& rim : rims(volume.model, volume.faces(end)))
-        for (const EdgeUse& use : rim.uses)
-            on_rim.insert({volume.model[use.edge].from, volume.model[use.edge].to});
-    std::erase_if(lines, [&](EdgeId edge) {
-        return on_rim.contains(volume.model[edge].from) || on_rim.contains(volume.model[edge].to);
-    });
-    return lines;
-}
-
-} // namespace
 
 std::vector<LineAhead> lines_ahead(const SameEdges& edges, const std::function<double(std::size_t)>& sides_of)
 {
@@ -61,9 +42,11 @@ std::vector<LineAhead> lines_ahead(const SameEdges& edges, const std::function<d
         std::vector<std::pair<std::size_t, Role>> stack{{m, opposite(role_of(m, face))}};
         for (std::size_t next = 0; next < stack.size(); ++next) {
             const auto [behind, end] = stack[next];
-            for (const EdgeId line : closed_lines(*edges.members()[behind].volume, end))
+            const OpenVolume& volume = *edges.members()[behind].volume;
+            const auto lines = surface::closed_lines(volume, end, surface::inner_edges(volume, end));
+            for (const EdgeUse& line : lines | std::views::join)
                 for (const Loop& loop : border_loops(edges.model(m), face))
-                    for (const EdgeUse& use : loop.uses) add_line(use, m, behind, line);
+                    for (const EdgeUse& use : loop.uses) add_line(use, m, behind, line.edge);
             for (const std::size_t f : shared_by[behind]) {
                 const SharedFace& shared = edges.shared()[f];
                 const bool is_a = shared.a == behind;

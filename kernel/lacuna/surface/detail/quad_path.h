@@ -26,8 +26,8 @@ namespace lacuna::surface {
 /// @param taken  nodes that must not lie on the path.
 /// @return  a node of the mesh for each node of the line. Empty if no block with so many nodes lies inside
 ///          the mesh, away from its border, where the mesh is a grid.
-/// @note  O(quads + n⁴) for n nodes of the line; most blocks are left out by the distance of their middle.
-std::vector<Index> path_around(std::span<const Quad> quads, std::span<const Vec2> place,
+/// @note  O(quads + n³) for n nodes of the line, and O(n²) for each block whose middle is near the line's.
+std::vector<Index> path_around(const std::vector<Quad>& quads, std::span<const Vec2> place,
                                std::span<const Vec2> line, const std::unordered_set<Index>& taken = {});
 
 /// A side of a path, and the part of the line that it represents.
@@ -41,12 +41,8 @@ struct PathSide {
 /// @param place  positions of the model's points in the plane, as parts of the source.
 /// @return  empty if no path fits.
 std::vector<PathSide> path_along(const topology::Model& model, const EndsMap& map,
-                                 std::span<const Quad> quads, std::span<const Vec2> place,
+                                 const std::vector<Quad>& quads, std::span<const Vec2> place,
                                  std::span<const topology::EdgeUse> line,
                                  const std::unordered_set<Index>& taken);
-
-/// Closed lines of edges inside the target that no other of these edges and no edge of the rim touches.
-std::vector<std::vector<topology::EdgeUse>> closed_lines(const topology::OpenVolume& volume,
-                                                         std::span<const EdgeId> inner);
 
 } // namespace lacuna::surface

@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace lacuna::surface {
@@ -53,6 +54,11 @@ std::map<EdgeId, double> image_lengths(const Imprint& imprint);
 
 /// Edges between two faces of one role. A seam, with one face on both sides, is not included.
 std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Role role);
+
+/// Closed lines of inner edges of an end that no other inner edge and no edge of the rim touches.
+/// @param inner  all inner edges of the end, or some of them.
+std::vector<std::vector<topology::EdgeUse>> closed_lines(const topology::OpenVolume& volume,
+                                                         topology::Role end, std::span<const EdgeId> inner);
 
 /// Which inner edges of the target are imprinted: all, or only lines that touch its rim or each other.
 enum class ImprintedLines { all, open };

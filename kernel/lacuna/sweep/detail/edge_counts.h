@@ -181,7 +181,7 @@ private:
     std::map<std::size_t, std::vector<Line>> stacks_;
     /// Sets of same edges that, in some member, form only a part of a side line.
     std::set<std::size_t> stacked_;
-    std::vector<int> per_turn_, layers_;        ///< numbers that each member needs to keep its volume
+    std::vector<int> per_turn_, layers_;        ///< numbers that each member needs at least
     std::vector<surface::LinkingSurface> bent_; ///< those with side lines that bend
     /// For each member and first edge of a side line in `bent_`: the linking surface, and the line in it.
     std::map<std::pair<std::size_t, EdgeId>, std::pair<std::size_t, std::size_t>> bent_lines_;
